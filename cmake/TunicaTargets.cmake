@@ -1,0 +1,49 @@
+# Compiler settings and the helpers that declare one target per source folder.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+
+find_program(TUNICA_CCACHE ccache)
+if(TUNICA_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TUNICA_CCACHE})
+endif()
+
+add_library(tunica_flags INTERFACE)
+# -Wno-psabi: packs are wider than the baseline registers; they never cross a library boundary by value.
+# -ffp-contract=fast is g++'s default and kept: results are compared with tolerances, not bit by bit across ISAs.
+target_compile_options(tunica_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
+if(TUNICA_WERROR)
+  target_compile_options(tunica_flags INTERFACE -Werror)
+endif()
+if(TUNICA_SANITIZE)
+  target_compile_options(tunica_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(tunica_flags INTERFACE -fsanitize=address,undefined)
+endif()
+target_include_directories(tunica_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+
+if(NOT TUNICA_PURE)
+  set(HDF5_PREFER_PARALLEL ON)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
+endif()
+
+# tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
+# LINK names exactly what the include table in ARCHITECTURE.md allows.
+function(tunica_folder name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  if(sources)
+    add_library(tunica_${name} STATIC ${sources})
+    target_link_libraries(tunica_${name} PUBLIC tunica_flags ${ARG_LINK})
+  else()
+    add_library(tunica_${name} INTERFACE)
+    target_link_libraries(tunica_${name} INTERFACE tunica_flags ${ARG_LINK})
+  endif()
+endfunction()

@@ -1,0 +1,156 @@
+// Pack<W>: W doubles that are computed on together, one lane per element of a batch.
+//
+// Built on the vector extensions of GCC and Clang, so that a pack of any width compiles for any target; it is fast
+// where W matches the registers (2: SSE2, 4: AVX2, 8: AVX-512). Each instruction set uses its own width, so code
+// instantiated for different instruction sets has different symbols and never mixes at link time.
+//
+// The functions here have scalar twins of the same name for double, so that a kernel is written once.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#define TUNICA_INLINE inline __attribute__((always_inline))
+
+namespace tunica {
+
+template <int W>
+struct Pack {
+  static constexpr int width = W;
+  typedef double Vector __attribute__((vector_size(W * sizeof(double))));
+  typedef std::int64_t Integers __attribute__((vector_size(W * sizeof(std::int64_t))));
+  using Mask = Integers;  ///< all bits set where true
+
+  Vector v;
+
+  Pack() = default;
+  TUNICA_INLINE Pack(double value) : v(Vector{} + value) {}  // NOLINT: implicit, so that literals mix with packs
+  TUNICA_INLINE explicit Pack(Vector value) : v(value) {}
+  TUNICA_INLINE static Pack load(const double* p) {
+    Pack r;
+    __builtin_memcpy(&r.v, p, sizeof(Vector));
+    return r;
+  }
+  TUNICA_INLINE void store(double* p) const { __builtin_memcpy(p, &v, sizeof(Vector)); }
+  TUNICA_INLINE double operator[](int lane) const { return v[lane]; }
+  TUNICA_INLINE void set(int lane, double value) { v[lane] = value; }
+
+  TUNICA_INLINE Pack operator-() const { return Pack(-v); }
+  TUNICA_INLINE Pack& operator+=(const Pack& b) { v += b.v; return *this; }
+  TUNICA_INLINE Pack& operator-=(const Pack& b) { v -= b.v; return *this; }
+  TUNICA_INLINE Pack& operator*=(const Pack& b) { v *= b.v; return *this; }
+  TUNICA_INLINE Pack& operator/=(const Pack& b) { v /= b.v; return *this; }
+  friend TUNICA_INLINE Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
+  friend TUNICA_INLINE Pack operator-(const Pack& a, const Pack& b) { return Pack(a.v - b.v); }
+  friend TUNICA_INLINE Pack operator*(const Pack& a, const Pack& b) { return Pack(a.v * b.v); }
+  friend TUNICA_INLINE Pack operator/(const Pack& a, const Pack& b) { return Pack(a.v / b.v); }
+  friend TUNICA_INLINE Mask operator<(const Pack& a, const Pack& b) { return a.v < b.v; }
+  friend TUNICA_INLINE Mask operator>(const Pack& a, const Pack& b) { return a.v > b.v; }
+};
+
+// --- choosing by lane -------------------------------------------------------------------------------------------
+
+TUNICA_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
+TUNICA_INLINE bool any(bool mask) { return mask; }
+
+template <int W>
+TUNICA_INLINE Pack<W> select(const typename Pack<W>::Mask& mask, const Pack<W>& a, const Pack<W>& b) {
+  return Pack<W>(mask ? a.v : b.v);
+}
+template <class Mask>
+TUNICA_INLINE bool any(const Mask& mask) {
+  std::int64_t bits = 0;
+  for (unsigned i = 0; i < sizeof(Mask) / sizeof(std::int64_t); ++i) bits |= mask[i];
+  return bits != 0;
+}
+
+TUNICA_INLINE double max(double a, double b) { return a > b ? a : b; }
+TUNICA_INLINE double min(double a, double b) { return a < b ? a : b; }
+template <int W>
+TUNICA_INLINE Pack<W> max(const Pack<W>& a, const Pack<W>& b) { return Pack<W>(a.v > b.v ? a.v : b.v); }
+template <int W>
+TUNICA_INLINE Pack<W> min(const Pack<W>& a, const Pack<W>& b) { return Pack<W>(a.v < b.v ? a.v : b.v); }
+
+// --- elementary functions ---------------------------------------------------------------------------------------
+
+TUNICA_INLINE double sqrt(double x) { return __builtin_sqrt(x); }
+TUNICA_INLINE double abs(double x) { return __builtin_fabs(x); }
+inline double exp(double x) { return std::exp(x); }
+inline double log(double x) { return std::log(x); }
+inline double pow(double x, double y) { return std::pow(x, y); }
+
+template <int W>
+TUNICA_INLINE Pack<W> sqrt(const Pack<W>& x) {
+  Pack<W> r;
+  for (int i = 0; i < W; ++i) r.v[i] = __builtin_sqrt(x.v[i]);
+  return r;
+}
+template <int W>
+TUNICA_INLINE Pack<W> abs(const Pack<W>& x) { return Pack<W>(x.v < 0.0 ? -x.v : x.v); }
+
+/// e^x. Range reduction to |r| <= ln 2 / 2 and a degree-12 Taylor polynomial; error below 2 ulp for
+/// -708 < x < 709. Larger arguments give +infinity and smaller ones 0, NaN stays NaN.
+template <int W>
+TUNICA_INLINE Pack<W> exp(const Pack<W>& x) {
+  using P = Pack<W>;
+  const typename P::Vector shift = typename P::Vector{} + 0x1.8p52;  // rounds to integer and leaves it in the low bits
+  const typename P::Vector t = x.v * 1.4426950408889634074 + shift;
+  const typename P::Vector n = t - shift;
+  const P r((x.v - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10);
+  P p(1.0 / 479001600);
+  for (double c : {1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
+                   1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0})
+    p = p * r + P(c);
+  typename P::Integers bits;
+  __builtin_memcpy(&bits, &t, sizeof bits);
+  bits = (bits + 1023) << 52;
+  typename P::Vector scale;
+  __builtin_memcpy(&scale, &bits, sizeof scale);
+  P y(p.v * scale);
+  y = select<W>(x.v > 709.0, P(__builtin_inf()), y);
+  return select<W>(x.v < -708.0, P(0.0), y);
+}
+
+/// Natural logarithm of a positive normal number; NaN for x <= 0. Error below 4 ulp.
+template <int W>
+TUNICA_INLINE Pack<W> log(const Pack<W>& x) {
+  using P = Pack<W>;
+  typename P::Integers bits;
+  __builtin_memcpy(&bits, &x.v, sizeof bits);
+  // Split x = 2^e m with m in [sqrt(1/2), sqrt(2)).
+  const typename P::Integers offset = bits - 0x3fe6a09e667f3bcdLL;
+  const typename P::Integers exponent = offset >> 52;
+  bits -= exponent << 52;
+  typename P::Vector m, e;
+  __builtin_memcpy(&m, &bits, sizeof m);
+  const typename P::Integers e_bits = exponent + 0x4338000000000000LL;  // e + 1.5 * 2^52 as a double
+  __builtin_memcpy(&e, &e_bits, sizeof e);
+  e -= 0x1.8p52;
+  const P s((m - 1.0) / (m + 1.0)), z = s * s;  // ln m = 2 artanh(s)
+  P p(2.0 / 23);
+  for (double c : {2.0 / 21, 2.0 / 19, 2.0 / 17, 2.0 / 15, 2.0 / 13, 2.0 / 11, 2.0 / 9, 2.0 / 7, 2.0 / 5, 2.0 / 3})
+    p = p * z + P(c);
+  const P y(e * 6.93147180369123816490e-01 + (s.v * 2.0 + (s * z * p).v + e * 1.90821492927058770002e-10));
+  return select<W>(x.v > 0.0, y, P(__builtin_nan("")));
+}
+
+/// x^y for x > 0.
+template <int W>
+TUNICA_INLINE Pack<W> pow(const Pack<W>& x, double y) { return exp(log(x) * Pack<W>(y)); }
+
+// --- transposing between "one lane per element" and "one row per element" -----------------------------------------
+
+/// Lane count of a scalar type: 1 for double, W for Pack<W>.
+template <class T>
+inline constexpr int lanes = 1;
+template <int W>
+inline constexpr int lanes<Pack<W>> = W;
+
+TUNICA_INLINE double lane(double x, int) { return x; }
+template <int W>
+TUNICA_INLINE double lane(const Pack<W>& x, int i) { return x.v[i]; }
+TUNICA_INLINE void set_lane(double& x, int, double value) { x = value; }
+template <int W>
+TUNICA_INLINE void set_lane(Pack<W>& x, int i, double value) { x.v[i] = value; }
+
+}  // namespace tunica
