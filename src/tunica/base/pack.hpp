@@ -14,11 +14,32 @@
 
 namespace tunica {
 
+namespace detail {
+// One specialisation per width: GCC drops a vector_size that depends on a template parameter.
+template <int W>
+struct Registers;
+template <>
+struct Registers<2> {
+  typedef double Vector __attribute__((vector_size(16)));
+  typedef std::int64_t Integers __attribute__((vector_size(16)));
+};
+template <>
+struct Registers<4> {
+  typedef double Vector __attribute__((vector_size(32)));
+  typedef std::int64_t Integers __attribute__((vector_size(32)));
+};
+template <>
+struct Registers<8> {
+  typedef double Vector __attribute__((vector_size(64)));
+  typedef std::int64_t Integers __attribute__((vector_size(64)));
+};
+}  // namespace detail
+
 template <int W>
 struct Pack {
   static constexpr int width = W;
-  typedef double Vector __attribute__((vector_size(W * sizeof(double))));
-  typedef std::int64_t Integers __attribute__((vector_size(W * sizeof(std::int64_t))));
+  using Vector = typename detail::Registers<W>::Vector;
+  using Integers = typename detail::Registers<W>::Integers;
   using Mask = Integers;  ///< all bits set where true
 
   Vector v;

@@ -1,0 +1,39 @@
+// Loops over blocks that are compiled once per instruction set. Plain pointers only: nothing from the standard library
+// may be instantiated in the translation units of the wider sets.
+#pragma once
+
+#include <cstdint>
+
+#include "tunica/assembly/isa.hpp"
+
+namespace tunica::assembly {
+
+/// Incomplete factors of the velocity block, single precision, 3 x 4 floats per block: column by column, each column
+/// padded to four. Only columns of owned nodes take part.
+struct IluFactors {
+  std::int32_t rows = 0;
+  const std::int32_t* row_begin = nullptr;  ///< first lower block of each row, rows + 1
+  const std::int32_t* upper_begin = nullptr;  ///< first block right of the diagonal
+  const std::int32_t* columns = nullptr;      ///< without the diagonal
+  float* blocks = nullptr;
+  float* inverse_diagonal = nullptr;  ///< 12 floats per row
+};
+
+struct BlockKernels {
+  /// y = A x for 4 x 4 single-precision blocks, x and y double.
+  void (*multiply)(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
+                   const double* x, double* y);
+  /// x = (L D U)^-1 x, x: [row][4] single precision, the fourth entry unused.
+  void (*ilu_solve)(const IluFactors& factors, float* x);
+  /// Computes the factors in place; `position` is scratch of `rows` integers, all -1 on entry and exit.
+  /// Returns the row of the first singular diagonal block, or -1.
+  std::int32_t (*ilu_factorise)(const IluFactors& factors, std::int32_t* position);
+};
+
+/// Instantiated in block_kernels_<isa>.cpp.
+template <int W>
+BlockKernels make_block_kernels();
+
+const BlockKernels& block_kernels(Isa isa);
+
+}  // namespace tunica::assembly

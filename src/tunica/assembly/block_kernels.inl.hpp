@@ -1,0 +1,122 @@
+// Bodies of block_kernels.hpp; included only by the translation units of one instruction set each.
+#pragma once
+
+#include "tunica/assembly/block_kernels.hpp"
+#include "tunica/base/pack.hpp"
+
+namespace tunica::assembly {
+
+namespace {  // internal: never shared between instruction sets
+
+typedef float Float4 __attribute__((vector_size(16)));
+typedef double Double4 __attribute__((vector_size(32)));
+
+TUNICA_INLINE Float4 load4(const float* p) {
+  Float4 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+TUNICA_INLINE void store4(float* p, Float4 v) { __builtin_memcpy(p, &v, sizeof v); }
+
+template <int W>
+void multiply(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
+              const double* x, double* y) {
+  for (std::int32_t row = 0; row < rows; ++row) {
+    Double4 s0{}, s1{}, s2{}, s3{};
+    for (std::int32_t b = row_begin[row]; b < row_begin[row + 1]; ++b) {
+      const float* a = blocks + 16 * static_cast<std::ptrdiff_t>(b);
+      const double* v = x + 4 * static_cast<std::ptrdiff_t>(columns[b]);
+      s0 += __builtin_convertvector(load4(a), Double4) * v[0];
+      s1 += __builtin_convertvector(load4(a + 4), Double4) * v[1];
+      s2 += __builtin_convertvector(load4(a + 8), Double4) * v[2];
+      s3 += __builtin_convertvector(load4(a + 12), Double4) * v[3];
+    }
+    const Double4 s = (s0 + s1) + (s2 + s3);
+    __builtin_memcpy(y + 4 * static_cast<std::ptrdiff_t>(row), &s, sizeof s);
+  }
+}
+
+// c -= a b for 3 x 3 blocks in padded columns.
+TUNICA_INLINE void subtract_product(float* c, const float* a, const float* b) {
+  const Float4 a0 = load4(a), a1 = load4(a + 4), a2 = load4(a + 8);
+  for (int j = 0; j < 3; ++j) store4(c + 4 * j, load4(c + 4 * j) - (a0 * b[4 * j] + a1 * b[4 * j + 1] + a2 * b[4 * j + 2]));
+}
+
+TUNICA_INLINE Float4 product(const float* a, const float* x) {
+  return load4(a) * x[0] + load4(a + 4) * x[1] + load4(a + 8) * x[2];
+}
+
+// Inverse of a 3 x 3 block; computed in double. Returns false when it is singular.
+inline bool invert(const float* a, float* inverse) {
+  const double m[9] = {a[0], a[4], a[8], a[1], a[5], a[9], a[2], a[6], a[10]};  // row-major
+  double c[9];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      c[3 * i + j] = m[3 * j1 + i1] * m[3 * j2 + i2] - m[3 * j1 + i2] * m[3 * j2 + i1];
+    }
+  const double det = m[0] * c[0] + m[1] * c[3] + m[2] * c[6];
+  if (!(det > 0.0) && !(det < 0.0)) return false;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) inverse[4 * j + i] = static_cast<float>(c[3 * i + j] / det);
+    inverse[4 * j + 3] = 0;
+  }
+  return true;
+}
+
+template <int W>
+void ilu_solve(const IluFactors& f, float* x) {
+  for (std::int32_t row = 0; row < f.rows; ++row) {
+    Float4 s = load4(x + 4 * static_cast<std::ptrdiff_t>(row));
+    for (std::int32_t b = f.row_begin[row]; b < f.upper_begin[row]; ++b)
+      s -= product(f.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(f.columns[b]));
+    store4(x + 4 * static_cast<std::ptrdiff_t>(row), s);
+  }
+  for (std::int32_t row = f.rows - 1; row >= 0; --row) {
+    Float4 s = load4(x + 4 * static_cast<std::ptrdiff_t>(row));
+    for (std::int32_t b = f.upper_begin[row]; b < f.row_begin[row + 1]; ++b)
+      s -= product(f.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(f.columns[b]));
+    float t[4];
+    store4(t, s);
+    store4(x + 4 * static_cast<std::ptrdiff_t>(row), product(f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(row), t));
+  }
+}
+
+// Block ILU(0), row by row (Saad 2003, algorithm 10.4). On entry `inverse_diagonal` holds the diagonal blocks.
+template <int W>
+std::int32_t ilu_factorise(const IluFactors& f, std::int32_t* position) {
+  for (std::int32_t i = 0; i < f.rows; ++i) {
+    for (std::int32_t b = f.row_begin[i]; b < f.row_begin[i + 1]; ++b) position[f.columns[b]] = b;
+    float* diagonal = f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(i);
+    for (std::int32_t b = f.row_begin[i]; b < f.upper_begin[i]; ++b) {
+      const std::int32_t k = f.columns[b];
+      float* lower = f.blocks + 12 * static_cast<std::ptrdiff_t>(b);
+      float scaled[12] = {};
+      const float* inverse = f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(k);
+      for (int j = 0; j < 3; ++j) store4(scaled + 4 * j, product(lower, inverse + 4 * j));
+      for (int j = 0; j < 12; ++j) lower[j] = scaled[j];
+      for (std::int32_t u = f.upper_begin[k]; u < f.row_begin[k + 1]; ++u) {
+        const std::int32_t j = f.columns[u];
+        const float* upper = f.blocks + 12 * static_cast<std::ptrdiff_t>(u);
+        if (j == i)
+          subtract_product(diagonal, lower, upper);
+        else if (position[j] >= 0)
+          subtract_product(f.blocks + 12 * static_cast<std::ptrdiff_t>(position[j]), lower, upper);
+      }
+    }
+    float inverse[12];
+    if (!invert(diagonal, inverse)) return i;
+    for (int j = 0; j < 12; ++j) diagonal[j] = inverse[j];
+    for (std::int32_t b = f.row_begin[i]; b < f.row_begin[i + 1]; ++b) position[f.columns[b]] = -1;
+  }
+  return -1;
+}
+
+}  // namespace
+
+template <int W>
+BlockKernels make_block_kernels() {
+  return {&multiply<W>, &ilu_solve<W>, &ilu_factorise<W>};
+}
+
+}  // namespace tunica::assembly

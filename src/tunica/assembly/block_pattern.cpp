@@ -1,0 +1,69 @@
+#include "tunica/assembly/block_pattern.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace tunica::assembly {
+
+namespace {
+
+// The distinct nodes of an element and of their hosts.
+int coupled_nodes(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
+                  std::array<std::int32_t, 8>& nodes) {
+  int n = 0;
+  for (const auto node : element) nodes[n++] = node;
+  for (const auto node : element)
+    if (mesh.host[node] != node) nodes[n++] = mesh.host[node];
+  return n;
+}
+
+template <class Visit>
+void for_each_pair(const mesh::DistributedMesh& mesh, Visit visit) {
+  std::array<std::int32_t, 8> nodes;
+  for (const auto& region : mesh.regions)
+    for (const auto& element : region.elements) {
+      const int n = coupled_nodes(mesh, element, nodes);
+      for (int a = 0; a < n; ++a)
+        if (nodes[a] < mesh.owned_nodes)
+          for (int b = 0; b < n; ++b) visit(nodes[a], nodes[b]);
+    }
+}
+
+}  // namespace
+
+std::int32_t BlockPattern::slot(std::int32_t row, std::int32_t column) const {
+  if (row >= rows) return blocks();
+  const auto first = columns.begin() + row_begin[row], last = columns.begin() + row_begin[row + 1];
+  const auto it = std::lower_bound(first, last, column);
+  assert(it != last && *it == column);
+  return static_cast<std::int32_t>(it - columns.begin());
+}
+
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh) {
+  BlockPattern pattern;
+  pattern.rows = mesh.owned_nodes;
+  pattern.columns_count = mesh.nodes();
+  // Count with repetitions, fill, then make each row unique in place.
+  std::vector<std::size_t> begin(pattern.rows + 1, 0);
+  for_each_pair(mesh, [&](std::int32_t row, std::int32_t) { ++begin[row + 1]; });
+  for (std::int32_t i = 0; i < pattern.rows; ++i) begin[i + 1] += begin[i] + 1;  // + 1: the diagonal is always there
+  std::vector<std::int32_t> repeated(begin.back());
+  std::vector<std::size_t> fill(begin.begin(), begin.end() - 1);
+  for (std::int32_t i = 0; i < pattern.rows; ++i) repeated[fill[i]++] = i;
+  for_each_pair(mesh, [&](std::int32_t row, std::int32_t column) { repeated[fill[row]++] = column; });
+
+  pattern.row_begin.assign(pattern.rows + 1, 0);
+  pattern.diagonal.resize(pattern.rows);
+  for (std::int32_t i = 0; i < pattern.rows; ++i) {
+    const auto first = repeated.begin() + static_cast<std::ptrdiff_t>(begin[i]);
+    const auto last = repeated.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
+    std::sort(first, last);
+    const auto end = std::unique(first, last);
+    pattern.diagonal[i] = static_cast<std::int32_t>(pattern.columns.size() + (std::lower_bound(first, end, i) - first));
+    pattern.columns.insert(pattern.columns.end(), first, end);
+    pattern.row_begin[i + 1] = static_cast<std::int32_t>(pattern.columns.size());
+  }
+  return pattern;
+}
+
+}  // namespace tunica::assembly

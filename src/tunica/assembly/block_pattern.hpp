@@ -1,0 +1,29 @@
+// Which node couples with which: the sparsity of the block matrix, and the slots that element matrices are added to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tunica/mesh/distributed_mesh.hpp"
+
+namespace tunica::assembly {
+
+/// Block CSR pattern: rows are the nodes that this rank owns, columns all local nodes, ascending in each row. A wall
+/// element next to the lumen couples its own nodes (pressure) and their hosts (motion).
+struct BlockPattern {
+  std::int32_t rows = 0;                ///< owned nodes
+  std::int32_t columns_count = 0;       ///< local nodes
+  std::vector<std::int32_t> row_begin;  ///< rows + 1
+  std::vector<std::int32_t> columns;
+  std::vector<std::int32_t> diagonal;  ///< position of block (i, i)
+
+  std::int32_t blocks() const { return static_cast<std::int32_t>(columns.size()); }
+  /// Position of block (row, column); `blocks()` when the row is a ghost's, a block that is never read.
+  std::int32_t slot(std::int32_t row, std::int32_t column) const;
+};
+
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh);
+
+}  // namespace tunica::assembly
