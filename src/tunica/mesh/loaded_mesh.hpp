@@ -1,0 +1,16 @@
+// What a mesh reader returns: the mesh, and what it noticed on the way.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tunica/mesh/mesh_data.hpp"
+
+namespace tunica::mesh {
+
+struct LoadedMesh {
+  MeshData data;
+  std::vector<std::string> report;  ///< one line per face or decision, for the log
+};
+
+}  // namespace tunica::mesh
