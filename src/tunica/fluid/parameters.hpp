@@ -1,0 +1,17 @@
+// Parameters of the blood flow model.
+#pragma once
+
+#include "tunica/fluid/viscosity.hpp"
+
+namespace tunica::fluid {
+
+/// Constants of eqs (2.1)-(2.4) and of the backflow stabilisation (section 4). SI units.
+struct Parameters {
+  double density = 1060.0;  ///< rho [kg/m^3]
+  Viscosity viscosity;      ///< law of mu
+  double c_m = 1.0;         ///< transient constant of tau_M, eq (2.2)
+  double c_i = 36.0;        ///< viscous constant of tau_M, eq (2.2)
+  double backflow = 0.2;  ///< beta: 0 no stabilisation, 1/2 cancels the kinetic energy that flows in through an outlet
+};
+
+}  // namespace tunica::fluid
