@@ -1,0 +1,3 @@
+// Planted for the test of the include check; never compiled.
+#pragma once
+#include "tunica/coupling/step.hpp"

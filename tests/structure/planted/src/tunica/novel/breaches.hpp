@@ -1,0 +1,2 @@
+// Planted for the test of the include check; never compiled.
+#pragma once
