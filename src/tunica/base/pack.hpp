@@ -10,6 +10,10 @@
 #include <cmath>
 #include <cstdint>
 
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 #define TUNICA_INLINE inline __attribute__((always_inline))
 
 namespace tunica {
@@ -100,8 +104,19 @@ inline double exp(double x) { return std::exp(x); }
 inline double log(double x) { return std::log(x); }
 inline double pow(double x, double y) { return std::pow(x, y); }
 
+/// Square root, correctly rounded; NaN for x < 0. Written with the instructions: a loop over the lanes stays scalar,
+/// since __builtin_sqrt may set errno.
 template <int W>
 TUNICA_INLINE Pack<W> sqrt(const Pack<W>& x) {
+#if defined(__AVX512F__)
+  if constexpr (W == 8) return Pack<W>((typename Pack<W>::Vector)_mm512_sqrt_pd((__m512d)x.v));
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4) return Pack<W>((typename Pack<W>::Vector)_mm256_sqrt_pd((__m256d)x.v));
+#endif
+#if defined(__SSE2__)
+  if constexpr (W == 2) return Pack<W>((typename Pack<W>::Vector)_mm_sqrt_pd((__m128d)x.v));
+#endif
   Pack<W> r;
   for (int i = 0; i < W; ++i) r.v[i] = __builtin_sqrt(x.v[i]);
   return r;
