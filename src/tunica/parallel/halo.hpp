@@ -27,17 +27,21 @@ class Halo {
   /// Fills the ghost part of `values` ([local node][components]) from the owners. Collective.
   void update(std::span<double> values, int components) const;
 
-  /// The two halves of `update`, so that work on owned values can go on in between. One exchange at a time.
-  void begin(std::span<double> values, int components);
-  void end();
+  /// The two halves of `update`, so that work on owned values can go on in between; `values` stays in place until
+  /// `end`. One exchange at a time. Collective.
+  void begin(std::span<double> values, int components) const;
+  void end() const;
 
+  /// Ranks that share nodes with this one, ascending.
   const std::vector<Neighbour>& neighbours() const { return neighbours_; }
 
  private:
   MPI_Comm comm_ = MPI_COMM_NULL;
+  std::int32_t local_nodes_ = 0;
   std::vector<Neighbour> neighbours_;
-  std::vector<double> send_buffer_;
-  std::vector<MPI_Request> requests_;
+  // Scratch of the exchange under way; mutable since an exchange leaves the halo itself as it was.
+  mutable std::vector<double> send_buffer_;
+  mutable std::vector<MPI_Request> requests_;
 };
 
 }  // namespace tunica::parallel

@@ -1,0 +1,41 @@
+#include "tunica/parallel/petsc.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "tunica/base/error.hpp"
+
+namespace tunica::parallel {
+
+void check(PetscErrorCode code, std::source_location place) {
+  if (code == 0) return;
+  const char* general = nullptr;
+  char* specific = nullptr;
+  PetscErrorMessage(code, &general, &specific);
+  std::string_view file = place.file_name();
+  file.remove_prefix(file.find_last_of('/') + 1);
+  throw SolverError(fmt::format("PETSc error {} ({}) called from {}:{}: {}", static_cast<int>(code),
+                                general != nullptr ? general : "unknown", file, place.line(),
+                                specific != nullptr ? specific : ""));
+}
+
+Session::Session(const std::vector<std::string>& options)
+    : arguments_{"tunica", "-skip_petscrc", "-no_signal_handler"} {
+  arguments_.insert(arguments_.end(), options.begin(), options.end());
+  for (auto& argument : arguments_) pointers_.push_back(argument.data());
+  pointers_.push_back(nullptr);
+  unsetenv("PETSC_OPTIONS");
+  int count = static_cast<int>(arguments_.size());
+  char** values = pointers_.data();
+  check(PetscInitialize(&count, &values, nullptr, nullptr));
+  check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+}
+
+Session::~Session() {
+  PetscPopErrorHandler();
+  PetscFinalize();
+}
+
+}  // namespace tunica::parallel
