@@ -1,0 +1,428 @@
+// Wall kernels on the linear tetrahedron: displacement element and mixed displacement-pressure element.
+//
+// Gradients are constant, so one evaluation per element is exact. Unknown x: the velocity at t_{n+1} in dynamics, the
+// displacement in statics; both residuals are functions of u, v_dot and p, and Coefficients carries du/dx and
+// dv_dot/dx. One kernel therefore serves statics and dynamics.
+//
+// Displacement element:
+//   r_a = (N_a, rho_0 v_dot) + (grad_X N_a, P),   P = F S,   S = J^(-2/3) Dev(S_bar) + J p_vol C^-1            (1.5)
+//
+// Mixed element, p positive in compression (sigma = sigma_iso - p I), U'(J) = K g(J):
+//   r_a   = (N_a, rho_0 v_dot) + (grad_X N_a, P_iso - p J F^-T)
+//   r_p,a = s [ (N_a, g(J) + p/K) + (grad_x N_a, tau_u (rho_0 v_dot + J grad_x p)) ]
+// The last term is the variational multiscale one: on linear elements the deviatoric stress has no divergence, so the
+// momentum residual per reference volume is r_M = rho_0 v_dot + J F^-T grad_X p, and the displacement subscale
+// u' = -tau_u r_M / J enters the constraint linearised about g'(1) = 1. The pressure block
+// s [(N_a, N_b)/K + tau_u J (grad_x N_a, grad_x N_b)] is symmetric and positive, and 1/K = 0 is allowed.
+//
+// The constraint is algebraic. Liu & Marsden (2018) integrate it in rate form, J (beta p_dot + div v) = 0; then J is
+// known only through its history, drifts over thousands of steps, and statics needs another kernel. The algebraic form
+// ties p to J itself at every step.
+//
+// tau_u = c h^2 / mu, with mu the law's shear modulus at rest and h^2 = 6 / sum_a |grad_X N_a|^2: the squared edge of a
+// regular tetrahedron, and close to the squared smallest height of a flat one.
+//
+// An inverted element (J <= 0) gives NaN, which Newton's method must take as a rejected step.
+// Axes: grad_X in any frame, also the element's fibre frame (material_concept.hpp); x, u, v in global axes.
+#pragma once
+
+#include "tunica/fe/tetrahedron.hpp"
+#include "tunica/wall/material_concept.hpp"
+#include "tunica/wall/volumetric.hpp"
+
+namespace tunica::wall {
+
+/// Default of the stabilisation constant c.
+inline constexpr double default_stabilisation = 0.1;
+
+/// What the element needs besides the law.
+struct Body {
+  double density = 0.0;                          ///< rho_0, reference [kg/m^3]
+  Volumetric volumetric;                         ///< energy and K
+  double stabilisation = default_stabilisation;  ///< c > 0, mixed element only [-]
+};
+
+/// Nodal values of one element, or of a batch of elements.
+template <class T>
+struct ElementState {
+  fe::Gradients<T> reference;       ///< gradients with respect to X [1/m], volume [m^3]
+  Vec3<T> displacement[fe::nodes];  ///< u at t_{n+alpha_f} [m]
+  Vec3<T> acceleration[fe::nodes];  ///< v_dot at t_{n+alpha_m} [m/s^2]
+  T pressure[fe::nodes];            ///< p at t_{n+1} [Pa], mixed element only
+};
+
+/// Derivatives with respect to the unknown, and the factor of the constraint rows.
+struct Coefficients {
+  double acceleration = 0.0;  ///< dv_dot/dx
+  double displacement = 1.0;  ///< du/dx
+  double constraint = 1.0;    ///< s, multiplies r_p
+};
+
+/// Kinematics at the single evaluation point.
+template <class T>
+struct Kinematics {
+  Mat3<T> F;                ///< deformation gradient
+  T J;                      ///< det F
+  T scale;                  ///< J^(-2/3)
+  Symmetric<T> C_bar;       ///< J^(-2/3) F^T F
+  Vec3<T> dN_x[fe::nodes];  ///< grad_x N_a = F^-T grad_X N_a [1/m]
+};
+
+template <class T>
+TUNICA_INLINE Mat3<T> deformation_gradient(const ElementState<T>& e) {
+  Mat3<T> F = identity<T>();
+#pragma GCC unroll 4
+  for (int a = 1; a < fe::nodes; ++a) {
+    const Vec3<T> edge = e.displacement[a] - e.displacement[0];  // exact zero for a translation
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+      for (int j = 0; j < 3; ++j) F(i, j) += edge[i] * e.reference.dN[a][j];
+  }
+  return F;
+}
+
+template <class T>
+TUNICA_INLINE Kinematics<T> kinematics(const ElementState<T>& e) {
+  Kinematics<T> k;
+  k.F = deformation_gradient(e);
+  const Mat3<T> adj = adjugate(k.F);
+  k.J = k.F(0, 0) * adj(0, 0) + k.F(0, 1) * adj(1, 0) + k.F(0, 2) * adj(2, 0);
+  k.scale = pow(k.J, -2.0 / 3.0);
+  k.C_bar = k.scale * right_cauchy_green(k.F);
+  const T inverse_J = T(1.0) / k.J;
+#pragma GCC unroll 4
+  for (int a = 1; a < fe::nodes; ++a) {
+    const Vec3<T> dN = inverse_J * e.reference.dN[a];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) k.dN_x[a][i] = adj(0, i) * dN[0] + adj(1, i) * dN[1] + adj(2, i) * dN[2];
+  }
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) k.dN_x[0][i] = -(k.dN_x[1][i] + k.dN_x[2][i] + k.dN_x[3][i]);
+  return k;
+}
+
+/// tau_u [m^2/Pa].
+template <class T, Material L>
+TUNICA_INLINE T stabilisation_time(const ElementState<T>& e, const L& law, const Body& body) {
+  T sum(0.0);
+#pragma GCC unroll 4
+  for (int a = 0; a < fe::nodes; ++a) sum += dot(e.reference.dN[a], e.reference.dN[a]);
+  return T(6.0 * body.stabilisation / law.shear_modulus_at_rest()) / sum;
+}
+
+namespace detail {
+
+/// The stress at the evaluation point in the form that the kernels use: with S' = J^(-2/3) S_bar,
+///   P grad_X N_a = q_a - (theta - pi) grad_x N_a,  s_a = S' grad_X N_a,  q_a = F s_a,  theta = S' : C / 3,
+/// and pi = J p_vol or -p J. The deviator is thus never formed.
+template <class T>
+struct Stress {
+  Vec3<T> s[fe::nodes];
+  Vec3<T> q[fe::nodes];
+  T theta;
+  T pi;
+};
+
+template <class T>
+TUNICA_INLINE Stress<T> project(const ElementState<T>& e, const Kinematics<T>& k, const Symmetric<T>& S_bar,
+                                const T& pi) {
+  Stress<T> s;
+  const Symmetric<T> S = k.scale * S_bar;
+#pragma GCC unroll 4
+  for (int a = 1; a < fe::nodes; ++a) {
+    s.s[a] = S * e.reference.dN[a];
+    s.q[a] = k.F * s.s[a];
+  }
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    s.s[0][i] = -(s.s[1][i] + s.s[2][i] + s.s[3][i]);
+    s.q[0][i] = -(s.q[1][i] + s.q[2][i] + s.q[3][i]);
+  }
+  s.theta = T(1.0 / 3.0) * double_dot(S_bar, k.C_bar);
+  s.pi = pi;
+  return s;
+}
+
+/// Momentum rows: inertia with the consistent mass, V rho_0 (1 + delta_ab) / 20, and internal forces.
+template <class T>
+TUNICA_INLINE void momentum_residual(const ElementState<T>& e, const Kinematics<T>& k, const Stress<T>& s,
+                                     double density, fe::ElementVector<T>& r) {
+  const T V = e.reference.volume, m = T(density / 20.0) * V, isotropic = s.pi - s.theta;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    const T sum = e.acceleration[0][i] + e.acceleration[1][i] + e.acceleration[2][i] + e.acceleration[3][i];
+#pragma GCC unroll 4
+    for (int a = 0; a < fe::nodes; ++a)
+      r.r[a][i] = m * (sum + e.acceleration[a][i]) + V * (s.q[a][i] + isotropic * k.dN_x[a][i]);
+  }
+}
+
+/// Fills the block K of nodes 0 from the others: rows and columns of an internal force sum to zero.
+template <class T>
+TUNICA_INLINE void complete_by_translation(fe::ElementMatrix<T>& m) {
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) {
+#pragma GCC unroll 4
+      for (int b = 1; b < fe::nodes; ++b) {
+        m.k[0][b][i][j] = -(m.k[1][b][i][j] + m.k[2][b][i][j] + m.k[3][b][i][j]);
+        m.k[b][0][j][i] = m.k[0][b][i][j];
+      }
+    }
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) m.k[0][0][i][j] = -(m.k[1][0][i][j] + m.k[2][0][i][j] + m.k[3][0][i][j]);
+}
+
+/// Adds w B_a : CC' : B_b for nodes 1..3, where B_a,i = sym(grad_X N_a (x) F_i) - (1/3) grad_x N_a,i C is the
+/// isochoric part of the strain variation and CC' = J^(-4/3) CC_bar.
+template <class T>
+TUNICA_INLINE void add_material_tangent(const ElementState<T>& e, const Kinematics<T>& k,
+                                        const SymmetricTangent<T>& CC_bar, const T& weight, fe::ElementMatrix<T>& m) {
+  // With C = C_bar / scale, scale B_a can be formed from C_bar, which absorbs J^(-4/3).
+  T B[3][3][voigt_size];
+#pragma GCC unroll 3
+  for (int a = 0; a < 3; ++a)
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+      const Vec3<T>& dN = e.reference.dN[a + 1];
+      const T third = T(1.0 / 3.0) * k.dN_x[a + 1][i];
+#pragma GCC unroll 3
+      for (int n = 0; n < 3; ++n) B[a][i][n] = k.scale * (dN[n] * k.F(i, n)) - third * k.C_bar[n];
+#pragma GCC unroll 3
+      for (int n = 3; n < voigt_size; ++n) {
+        const int p = voigt_row[n], q = voigt_column[n];
+        B[a][i][n] = k.scale * (dN[p] * k.F(i, q) + dN[q] * k.F(i, p)) - T(2.0) * third * k.C_bar[n];
+      }
+    }
+#pragma GCC unroll 3
+  for (int b = 0; b < 3; ++b)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) {
+      T D[voigt_size];
+#pragma GCC unroll 6
+      for (int n = 0; n < voigt_size; ++n) {
+        T sum = CC_bar(n, 0) * B[b][j][0];
+#pragma GCC unroll 6
+        for (int o = 1; o < voigt_size; ++o) sum += CC_bar(n, o) * B[b][j][o];
+        D[n] = weight * sum;
+      }
+#pragma GCC unroll 3
+      for (int a = 0; a <= b; ++a)
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          T sum = B[a][i][0] * D[0];
+#pragma GCC unroll 6
+          for (int n = 1; n < voigt_size; ++n) sum += B[a][i][n] * D[n];
+          m.k[a + 1][b + 1][i][j] += sum;
+        }
+    }
+}
+
+/// Velocity block of the tangent: c_u V d(P grad_X N_a)_i / du_b,j plus the mass. With kappa = J dpi/dJ,
+///   k_ab,ij = delta_ij s_b.grad_X N_a + (theta - pi) g_a,j g_b,i + (2/3 theta + kappa) g_a,i g_b,j
+///             - 2/3 (g_a,i q_b,j + q_a,i g_b,j) + B_a,i : CC' : B_b,j,      g_a = grad_x N_a.
+/// It is the standard isochoric split (Holzapfel 2000, eq. 6.168) contracted by hand: the geometric stiffness of the
+/// isotropic stress cancels against the C^-1 (.) C^-1 terms.
+template <class T, Material L>
+TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T>& k, const Stress<T>& s,
+                                    const SymmetricTangent<T>* CC_bar, const T& kappa, double density,
+                                    const Coefficients& c, fe::ElementMatrix<T>& m) {
+  const T weight = T(c.displacement) * e.reference.volume;
+  const T swap = weight * (s.theta - s.pi), rank_one = weight * (T(2.0 / 3.0) * s.theta + kappa);
+  const T cross_weight = weight * T(-2.0 / 3.0);
+#pragma GCC unroll 3
+  for (int b = 1; b < fe::nodes; ++b) {
+    const Vec3<T>& g_b = k.dN_x[b];
+    const Vec3<T> cross_b = cross_weight * g_b, swap_b = swap * g_b;
+    const Vec3<T> first = rank_one * g_b + cross_weight * s.q[b];
+#pragma GCC unroll 3
+    for (int a = 1; a <= b; ++a) {
+      const Vec3<T>& g_a = k.dN_x[a];
+      const T diagonal = weight * dot(e.reference.dN[a], s.s[b]);
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+        for (int j = 0; j < 3; ++j) {
+          T sum = g_a[i] * first[j] + s.q[a][i] * cross_b[j] + g_a[j] * swap_b[i];
+          if (i == j) sum += diagonal;
+          m.k[a][b][i][j] = sum;
+        }
+    }
+  }
+  if constexpr (!is_linear<L>) add_material_tangent(e, k, *CC_bar, weight, m);
+#pragma GCC unroll 3
+  for (int b = 1; b < fe::nodes; ++b)
+#pragma GCC unroll 3
+    for (int a = 1; a < b; ++a)
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+        for (int j = 0; j < 3; ++j) m.k[b][a][j][i] = m.k[a][b][i][j];
+  complete_by_translation(m);
+  const T mass = T(c.acceleration * density / 20.0) * e.reference.volume;
+#pragma GCC unroll 4
+  for (int a = 0; a < fe::nodes; ++a)
+#pragma GCC unroll 4
+    for (int b = 0; b < fe::nodes; ++b)
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) m.k[a][b][i][i] += a == b ? mass + mass : mass;
+}
+
+template <class T>
+TUNICA_INLINE T mean_pressure(const ElementState<T>& e) {
+  return T(0.25) * (e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3]);
+}
+
+/// The two vectors of the stabilisation: rho_0 v_dot and grad_x p, means over the element.
+template <class T>
+struct Subscale {
+  T tau;
+  Vec3<T> inertia;
+  Vec3<T> pressure_gradient;
+};
+
+template <class T, Material L>
+TUNICA_INLINE Subscale<T> subscale(const ElementState<T>& e, const Kinematics<T>& k, const L& law, const Body& body) {
+  Subscale<T> s;
+  s.tau = stabilisation_time(e, law, body);
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    s.inertia[i] = T(0.25 * body.density) *
+                   (e.acceleration[0][i] + e.acceleration[1][i] + e.acceleration[2][i] + e.acceleration[3][i]);
+    s.pressure_gradient[i] = k.dN_x[0][i] * e.pressure[0] + k.dN_x[1][i] * e.pressure[1] +
+                             k.dN_x[2][i] * e.pressure[2] + k.dN_x[3][i] * e.pressure[3];
+  }
+  return s;
+}
+
+template <class T>
+TUNICA_INLINE void constraint_residual(const ElementState<T>& e, const Kinematics<T>& k, const Subscale<T>& s,
+                                       const Body& body, double factor, fe::ElementVector<T>& r) {
+  const T V = T(factor) * e.reference.volume;
+  const T g = T(0.25) * body.volumetric.unit_pressure(k.J);
+  const T compressibility(body.volumetric.compressibility() / 20.0);
+  const T sum = e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3];
+  Vec3<T> flux;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) flux[i] = s.tau * (s.inertia[i] + k.J * s.pressure_gradient[i]);
+#pragma GCC unroll 4
+  for (int a = 0; a < fe::nodes; ++a)
+    r.r[a][3] = V * (g + compressibility * (sum + e.pressure[a]) + dot(k.dN_x[a], flux));
+}
+
+/// Pressure column and constraint row. Uses d(grad_x N_a)_k = -(grad_x N_b)_k (grad_x N_a)_j du_b,j and
+/// dJ = J (grad_x N_b)_j du_b,j.
+template <class T>
+TUNICA_INLINE void constraint_tangent(const ElementState<T>& e, const Kinematics<T>& k, const Subscale<T>& s,
+                                      const Body& body, const Coefficients& c, fe::ElementMatrix<T>& m) {
+  const T V = e.reference.volume, row = T(c.constraint) * V;
+  const T column = T(-0.25) * V * k.J;
+  const T row_u = T(c.displacement) * row, tau_u = row_u * s.tau, tau_J = tau_u * k.J;
+  const T volume_change = T(0.25) * row_u * body.volumetric.unit_stiffness(k.J) * k.J;
+  const T inertia = T(0.25 * body.density * c.acceleration) * row * s.tau;
+  const T mass = T(body.volumetric.compressibility() / 20.0) * row, laplace = row * s.tau * k.J;
+  Vec3<T> G_J, flux;  // J grad_x p and inertia + J grad_x p, times tau
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    G_J[i] = tau_J * s.pressure_gradient[i];
+    flux[i] = tau_u * s.inertia[i] + G_J[i];
+  }
+  T flux_b[fe::nodes];
+#pragma GCC unroll 4
+  for (int b = 0; b < fe::nodes; ++b) flux_b[b] = dot(flux, k.dN_x[b]);
+#pragma GCC unroll 4
+  for (int a = 0; a < fe::nodes; ++a) {
+    const Vec3<T>& g_a = k.dN_x[a];
+    const T change = volume_change + dot(g_a, G_J);
+#pragma GCC unroll 4
+    for (int b = 0; b < fe::nodes; ++b) {
+      const Vec3<T>& g_b = k.dN_x[b];
+      const T ab = dot(g_a, g_b), along = inertia - flux_b[b];
+#pragma GCC unroll 3
+      for (int j = 0; j < 3; ++j) {
+        m.k[a][b][j][3] = column * g_a[j];
+        m.k[a][b][3][j] = change * g_b[j] + along * g_a[j] - ab * G_J[j];
+      }
+      m.k[a][b][3][3] = (a == b ? mass + mass : mass) + laplace * ab;
+    }
+  }
+}
+
+}  // namespace detail
+
+/// Displacement element, residual [N]; pressure rows zero. K must be finite.
+template <class T, Material L>
+TUNICA_INLINE void displacement_residual(const ElementState<T>& e, const L& law, const Body& body,
+                                         fe::ElementVector<T>& r) {
+  const Kinematics<T> k = kinematics(e);
+  const T pi = T(body.volumetric.bulk_modulus) * k.J * body.volumetric.unit_pressure(k.J);
+  detail::momentum_residual(e, k, detail::project(e, k, stress(law, k.C_bar), pi), body.density, r);
+#pragma GCC unroll 4
+  for (int a = 0; a < fe::nodes; ++a) r.r[a][3] = T(0.0);
+}
+
+/// Displacement element, residual [N] and tangent; pressure rows and columns zero. K must be finite.
+template <class T, Material L>
+TUNICA_INLINE void displacement_tangent(const ElementState<T>& e, const L& law, const Body& body, const Coefficients& c,
+                                        fe::ElementVector<T>& r, fe::ElementMatrix<T>& m) {
+  const Kinematics<T> k = kinematics(e);
+  const T bulk(body.volumetric.bulk_modulus), p = bulk * body.volumetric.unit_pressure(k.J), pi = k.J * p;
+  const T kappa = pi + k.J * k.J * bulk * body.volumetric.unit_stiffness(k.J);
+  if constexpr (is_linear<L>) {
+    const detail::Stress<T> s = detail::project(e, k, stress(law, k.C_bar), pi);
+    detail::momentum_residual(e, k, s, body.density, r);
+    detail::momentum_tangent<T, L>(e, k, s, nullptr, kappa, body.density, c, m);
+  } else {
+    const Response<T> both = response(law, k.C_bar);
+    const detail::Stress<T> s = detail::project(e, k, both.stress, pi);
+    detail::momentum_residual(e, k, s, body.density, r);
+    detail::momentum_tangent<T, L>(e, k, s, &both.tangent, kappa, body.density, c, m);
+  }
+#pragma GCC unroll 4
+  for (int a = 0; a < fe::nodes; ++a) {
+    r.r[a][3] = T(0.0);
+#pragma GCC unroll 4
+    for (int b = 0; b < fe::nodes; ++b) {
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) m.k[a][b][i][3] = m.k[a][b][3][i] = T(0.0);
+      m.k[a][b][3][3] = T(0.0);
+    }
+  }
+}
+
+/// Mixed element, residual: momentum [N], constraint s [m^3].
+template <class T, Material L>
+TUNICA_INLINE void mixed_residual(const ElementState<T>& e, const L& law, const Body& body, const Coefficients& c,
+                                  fe::ElementVector<T>& r) {
+  const Kinematics<T> k = kinematics(e);
+  const T pi = -k.J * detail::mean_pressure(e);
+  detail::momentum_residual(e, k, detail::project(e, k, stress(law, k.C_bar), pi), body.density, r);
+  detail::constraint_residual(e, k, detail::subscale(e, k, law, body), body, c.constraint, r);
+}
+
+/// Mixed element, residual and tangent.
+template <class T, Material L>
+TUNICA_INLINE void mixed_tangent(const ElementState<T>& e, const L& law, const Body& body, const Coefficients& c,
+                                 fe::ElementVector<T>& r, fe::ElementMatrix<T>& m) {
+  const Kinematics<T> k = kinematics(e);
+  const T pi = -k.J * detail::mean_pressure(e);  // at fixed p, J dpi/dJ = pi
+  if constexpr (is_linear<L>) {
+    const detail::Stress<T> s = detail::project(e, k, stress(law, k.C_bar), pi);
+    detail::momentum_residual(e, k, s, body.density, r);
+    detail::momentum_tangent<T, L>(e, k, s, nullptr, pi, body.density, c, m);
+  } else {
+    const Response<T> both = response(law, k.C_bar);
+    const detail::Stress<T> s = detail::project(e, k, both.stress, pi);
+    detail::momentum_residual(e, k, s, body.density, r);
+    detail::momentum_tangent<T, L>(e, k, s, &both.tangent, pi, body.density, c, m);
+  }
+  const detail::Subscale<T> sub = detail::subscale(e, k, law, body);
+  detail::constraint_residual(e, k, sub, body, c.constraint, r);
+  detail::constraint_tangent(e, k, sub, body, c, m);
+}
+
+}  // namespace tunica::wall

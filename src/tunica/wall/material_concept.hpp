@@ -1,0 +1,93 @@
+// What a wall law is, and stress and tangent from its energy.
+//
+// A law is a small struct of named parameters. Its specification is the energy
+//     Psi = law.energy(C_bar)  [Pa],   C_bar = J^(-2/3) C,
+// the part of the strain energy that depends on the isochoric right Cauchy-Green tensor, (1.1) without Psi_vol. The
+// element kernels do the isochoric split (1.5), so a law never sees J. From the energy follow
+//     S_bar  = 2 dPsi/dC_bar   and   CC_bar = 4 d2Psi/dC_bar dC_bar                                            [Pa]
+// by dual numbers. A law may write them by hand for speed, in stress() and response(); the shared tests hold the two
+// against each other. A law whose energy is linear in C_bar says so, and the kernels then skip CC_bar.
+//
+// Components refer to the axes in which the reference gradients of the element are given. A fibre law wants the
+// element's fibre frame (e1 circumferential, e2 longitudinal, e3 radial): store the gradients in that frame and nothing
+// has to be rotated, since F = dx/dX keeps global axes for x.
+#pragma once
+
+#include <concepts>
+
+#include "tunica/base/dual.hpp"
+#include "tunica/wall/symmetric.hpp"
+
+namespace tunica::wall {
+
+/// Stress S_bar and tangent CC_bar of a law at one C_bar.
+template <class T>
+struct Response {
+  Symmetric<T> stress;
+  SymmetricTangent<T> tangent;
+};
+
+/// A law: its energy for every scalar type, and the shear modulus at rest [Pa], which scales the stabilisation.
+template <class Law>
+concept Material = requires(const Law& law, const Symmetric<double>& C_bar, const Symmetric<Pack<4>>& batch) {
+  { law.energy(C_bar) } -> std::same_as<double>;
+  { law.energy(batch) } -> std::same_as<Pack<4>>;
+  { law.shear_modulus_at_rest() } -> std::convertible_to<double>;
+};
+
+/// True where the energy is linear in C_bar, so that CC_bar = 0.
+template <class Law>
+inline constexpr bool is_linear = requires {
+  requires Law::linear;
+};
+
+/// dPsi/dC_IJ from the derivative with respect to the Voigt variable, which stands for two entries in shear.
+inline constexpr double voigt_share[voigt_size] = {1.0, 1.0, 1.0, 0.5, 0.5, 0.5};
+
+/// S_bar from the energy alone.
+template <class T, Material Law>
+inline Symmetric<T> derived_stress(const Law& law, const Symmetric<T>& C_bar) {
+  using D = Dual<T, voigt_size>;
+  Symmetric<D> C;
+  for (int i = 0; i < voigt_size; ++i) C[i] = D::variable(C_bar[i], i);
+  const D psi = law.energy(C);
+  Symmetric<T> S;
+  for (int i = 0; i < voigt_size; ++i) S[i] = T(2.0 * voigt_share[i]) * psi.d[i];
+  return S;
+}
+
+/// S_bar and CC_bar from the energy alone.
+template <class T, Material Law>
+inline Response<T> derived_response(const Law& law, const Symmetric<T>& C_bar) {
+  using D = Dual<T, voigt_size>;
+  using DD = Dual<D, voigt_size>;
+  Symmetric<DD> C;
+  for (int i = 0; i < voigt_size; ++i) C[i] = DD::variable(D::variable(C_bar[i], i), i);
+  const DD psi = law.energy(C);
+  Response<T> r;
+  for (int i = 0; i < voigt_size; ++i) {
+    r.stress[i] = T(2.0 * voigt_share[i]) * psi.value.d[i];
+    for (int j = i; j < voigt_size; ++j) r.tangent(i, j) = T(4.0 * voigt_share[i] * voigt_share[j]) * psi.d[i].d[j];
+  }
+  return r;
+}
+
+/// S_bar [Pa]: by hand where the law has it, else derived.
+template <class T, Material Law>
+TUNICA_INLINE Symmetric<T> stress(const Law& law, const Symmetric<T>& C_bar) {
+  if constexpr (requires { law.stress(C_bar); })
+    return law.stress(C_bar);
+  else
+    return derived_stress(law, C_bar);
+}
+
+/// S_bar and CC_bar [Pa]: by hand where the law has it, else derived. Not for linear laws.
+template <class T, Material Law>
+TUNICA_INLINE Response<T> response(const Law& law, const Symmetric<T>& C_bar) {
+  if constexpr (requires { law.response(C_bar); })
+    return law.response(C_bar);
+  else
+    return derived_response(law, C_bar);
+}
+
+}  // namespace tunica::wall
