@@ -1,0 +1,186 @@
+#include "tunica/bc/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace tunica::bc {
+
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "(none)" : text;
+}
+
+std::string_view kind(Field field) { return field == Field::lumen ? "lumen" : "wall"; }
+
+bool fits(const Condition& condition, Field field) {
+  return field == Field::lumen ? fits_lumen(condition) : fits_wall(condition);
+}
+
+const char* allowed(Field field) {
+  return field == Field::lumen ? "no_slip, velocity, flow, pressure, traction, resistance, rcr"
+                               : "fixed, free, pressure, traction, support";
+}
+
+class Checker {
+ public:
+  explicit Checker(const BoundaryCase& boundary) : boundary_(boundary) {
+    for (const auto& face : boundary.faces) names_.push_back(face.name);
+    for (const auto& [lumen, wall] : boundary.interfaces) coupled_.insert({lumen, wall});
+  }
+
+  std::vector<Problem> run() {
+    check_interfaces();
+    check_faces();
+    for (const auto& [face, condition] : boundary_.conditions) check_condition(face, condition);
+    if (boundary_.rigid_wall) check_pressure_level();
+    if (boundary_.static_wall) check_wall_support();
+    return std::move(problems_);
+  }
+
+ private:
+  const BoundaryFace* find(const std::string& name) const {
+    for (const auto& face : boundary_.faces)
+      if (face.name == name) return &face;
+    return nullptr;
+  }
+
+  std::string remedy_for_unknown(const std::string& name) const {
+    const auto nearest = nearest_name(name, names_);
+    return (nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest)) +
+           "faces of the mesh: " + listed(names_);
+  }
+
+  void check_interfaces() {
+    const auto side = [this](const std::string& name, Field field) {
+      const auto* face = find(name);
+      if (!face)
+        problems_.push_back({"interface", fmt::format("the mesh has no face '{}'", name), remedy_for_unknown(name)});
+      else if (face->field != field)
+        problems_.push_back({"interface",
+                             fmt::format("'{}' bounds the {}, not the {}", name, kind(face->field), kind(field)),
+                             "name the lumen face first and the wall face second"});
+    };
+    for (const auto& [lumen, wall] : boundary_.interfaces) {
+      side(lumen, Field::lumen);
+      side(wall, Field::wall);
+    }
+  }
+
+  void check_faces() {
+    for (const auto& face : boundary_.faces) {
+      std::vector<std::string> found;
+      for (const auto& [name, condition] : boundary_.conditions)
+        if (name == face.name) found.emplace_back(bc::name(condition));
+      const std::string where = "boundary." + face.name;
+      const bool coupled = coupled_.contains(face.name);
+      if (coupled && !found.empty())
+        problems_.push_back({where,
+                             fmt::format("the face is an interface between lumen and wall and has the condition "
+                                         "{} as well",
+                                         listed(found)),
+                             "remove the condition: the coupling is the condition of this face"});
+      else if (!coupled && found.empty())
+        problems_.push_back({where, fmt::format("this {} face has no condition", kind(face.field)),
+                             fmt::format("give it one of: {}", allowed(face.field))});
+      else if (found.size() > 1)
+        problems_.push_back({where,
+                             fmt::format("{} conditions ({}), exactly one is allowed", found.size(), listed(found)),
+                             "keep one of them"});
+    }
+  }
+
+  void check_condition(const std::string& name, const Condition& condition) {
+    const auto* face = find(name);
+    if (!face) {
+      problems_.push_back({"boundary." + name, "the mesh has no such face", remedy_for_unknown(name)});
+    } else if (!fits(condition, face->field) && !coupled_.contains(name)) {
+      problems_.push_back({"boundary." + name,
+                           fmt::format("{} is not a condition for a {} face", bc::name(condition), kind(face->field)),
+                           fmt::format("use one of: {}", allowed(face->field))});
+    }
+  }
+
+  void check_pressure_level() {
+    std::vector<std::string> lumen;
+    for (const auto& [name, condition] : boundary_.conditions) {
+      const auto* face = find(name);
+      if (!face || face->field != Field::lumen || !fits_lumen(condition)) continue;
+      if (!prescribes_velocity(condition)) return;
+      lumen.push_back(name);
+    }
+    if (!lumen.empty())
+      problems_.push_back({"boundary",
+                           fmt::format("every lumen face ({}) prescribes the velocity: the pressure is "
+                                       "undetermined and the flows need not balance",
+                                       listed(lumen)),
+                           "give one opening a pressure, traction, resistance or rcr condition"});
+  }
+
+  /// Rigid motion can only be judged coarsely without the geometry: at least one face must hold the wall, and faces
+  /// fixed along axes must together hold all three.
+  void check_wall_support() {
+    bool any_wall = false;
+    std::array<bool, 3> held{false, false, false};
+    for (const auto& [name, condition] : boundary_.conditions) {
+      if (const auto* face = find(name); !face || face->field != Field::wall) continue;
+      if (const auto* fixed = std::get_if<Fixed>(&condition)) {
+        if (fixed->directions != Fixed::Directions::axes) return;
+        for (int i = 0; i < 3; ++i) held[i] = held[i] || fixed->axes[i];
+      }
+      if (const auto* support = std::get_if<Support>(&condition); support && support->stiffness > 0) return;
+    }
+    for (const auto& face : boundary_.faces) any_wall = any_wall || face.field == Field::wall;
+    if (!any_wall || (held[0] && held[1] && held[2])) return;
+    std::string loose;
+    for (int i = 0; i < 3; ++i)
+      if (!held[i]) loose += (loose.empty() ? "" : ", ") + std::string(1, static_cast<char>('x' + i));
+    problems_.push_back({"boundary",
+                         fmt::format("nothing holds the wall against rigid motion along {} in a static "
+                                     "analysis",
+                                     loose),
+                         "give a wall face `fixed`, or `support` with a stiffness > 0"});
+  }
+
+  const BoundaryCase& boundary_;
+  std::vector<std::string> names_;
+  std::set<std::string> coupled_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::string nearest_name(const std::string& wanted, const std::vector<std::string>& existing) {
+  std::string best;
+  std::size_t least = wanted.size() / 3 + 1;
+  for (const auto& name : existing)
+    if (const auto distance = edit_distance(wanted, name); distance < least) {
+      least = distance;
+      best = name;
+    }
+  return best;
+}
+
+std::vector<Problem> check_boundary(const BoundaryCase& boundary) { return Checker(boundary).run(); }
+
+}  // namespace tunica::bc

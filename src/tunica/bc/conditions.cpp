@@ -1,0 +1,33 @@
+#include "tunica/bc/conditions.hpp"
+
+#include <array>
+
+namespace tunica::bc {
+
+namespace {
+
+struct Traits {
+  std::string_view name;
+  bool lumen, wall, velocity;
+};
+
+// In the order of the variant.
+constexpr std::array<Traits, std::variant_size_v<Condition>> traits = {{{"no_slip", true, false, true},
+                                                                        {"velocity", true, false, true},
+                                                                        {"flow", true, false, true},
+                                                                        {"pressure", true, true, false},
+                                                                        {"traction", true, true, false},
+                                                                        {"resistance", true, false, false},
+                                                                        {"rcr", true, false, false},
+                                                                        {"fixed", false, true, false},
+                                                                        {"free", false, true, false},
+                                                                        {"support", false, true, false}}};
+
+}  // namespace
+
+std::string_view name(const Condition& condition) { return traits[condition.index()].name; }
+bool fits_lumen(const Condition& condition) { return traits[condition.index()].lumen; }
+bool fits_wall(const Condition& condition) { return traits[condition.index()].wall; }
+bool prescribes_velocity(const Condition& condition) { return traits[condition.index()].velocity; }
+
+}  // namespace tunica::bc
