@@ -40,10 +40,10 @@ struct DistributedMesh {
   MPI_Comm comm = MPI_COMM_NULL;
   std::int32_t owned_nodes = 0;
   std::int64_t first_global = 0, global_nodes = 0, global_elements = 0;
-  std::vector<Vec3<double>> points;          ///< reference coordinates [m] of all local nodes
-  std::vector<std::int64_t> global_ids;      ///< of all local nodes
-  std::vector<std::int64_t> original_ids;    ///< position in MeshData::points, the order that checkpoints keep
-  std::vector<std::int32_t> host;            ///< local node that carries the motion: itself, or the lumen twin
+  std::vector<Vec3<double>> points;        ///< reference coordinates [m] of all local nodes
+  std::vector<std::int64_t> global_ids;    ///< of all local nodes
+  std::vector<std::int64_t> original_ids;  ///< position in MeshData::points, the order that checkpoints keep
+  std::vector<std::int32_t> host;          ///< local node that carries the motion: itself, or the lumen twin
   std::vector<Region> regions;
   std::vector<Face> faces;
   parallel::Halo halo;

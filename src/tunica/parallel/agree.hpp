@@ -65,13 +65,11 @@ void broadcast(MPI_Comm comm, std::string& text);
 void broadcast(MPI_Comm comm, std::vector<std::string>& texts);
 
 template <class T>
-  requires std::is_trivially_copyable_v<T>
-void broadcast(MPI_Comm comm, T& value) {
-  broadcast_bytes(comm, &value, sizeof(T));
-}
+requires std::is_trivially_copyable_v<T>
+void broadcast(MPI_Comm comm, T& value) { broadcast_bytes(comm, &value, sizeof(T)); }
 
 template <class T>
-  requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 void broadcast(MPI_Comm comm, std::vector<T>& values) {
   std::uint64_t count = values.size();
   broadcast(comm, count);

@@ -18,7 +18,7 @@ void receive_bytes(MPI_Comm comm, int from, void* data, std::size_t bytes);
 
 /// Sends `values` to rank `to`, which calls `receive`. Blocks until the buffer may be reused.
 template <class T>
-  requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 void send(MPI_Comm comm, int to, const std::vector<T>& values) {
   const std::uint64_t count = values.size();
   send_bytes(comm, to, &count, sizeof count);
@@ -27,8 +27,7 @@ void send(MPI_Comm comm, int to, const std::vector<T>& values) {
 
 /// The array that rank `from` sent.
 template <class T>
-  requires std::is_trivially_copyable_v<T>
-std::vector<T> receive(MPI_Comm comm, int from) {
+requires std::is_trivially_copyable_v<T> std::vector<T> receive(MPI_Comm comm, int from) {
   std::uint64_t count = 0;
   receive_bytes(comm, from, &count, sizeof count);
   std::vector<T> values(count);
