@@ -1,0 +1,82 @@
+// Quantities for output and energy balances: energies of an element, Cauchy stress and its invariants.
+#pragma once
+
+#include "tunica/wall/element.hpp"
+
+namespace tunica::wall {
+
+/// Kinetic energy of an element [J] with the consistent mass, from nodal velocities [m/s].
+template <class T>
+TUNICA_INLINE T kinetic_energy(const T& volume, const Vec3<T> (&velocity)[fe::nodes], double density) {
+  Vec3<T> sum = velocity[0] + velocity[1] + velocity[2] + velocity[3];
+  T squares = dot(sum, sum);
+  for (const Vec3<T>& v : velocity) squares += dot(v, v);
+  return T(density / 40.0) * volume * squares;
+}
+
+/// Stored energy of a displacement element [J]: V (Psi(C_bar) + K G(J)).
+template <class T, Material L>
+TUNICA_INLINE T displacement_strain_energy(const ElementState<T>& e, const L& law, const Body& body) {
+  const Kinematics<T> k = kinematics(e);
+  const T volumetric = T(body.volumetric.bulk_modulus) * body.volumetric.unit_energy(k.J);
+  return e.reference.volume * (law.energy(k.C_bar) + volumetric);
+}
+
+/// Stored energy of a mixed element [J]: V Psi(C_bar) + integral of p^2 / (2 K), zero volumetric part when
+/// incompressible. p^2 / (2 K) is exact for the quadratic energy and to first order in p/K for the others.
+template <class T, Material L>
+TUNICA_INLINE T mixed_strain_energy(const ElementState<T>& e, const L& law, const Body& body) {
+  const Kinematics<T> k = kinematics(e);
+  const T sum = e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3];
+  T squares = sum * sum;
+  for (const T& p : e.pressure) squares += p * p;
+  return e.reference.volume * (law.energy(k.C_bar) + T(body.volumetric.compressibility() / 40.0) * squares);
+}
+
+namespace detail {
+
+/// sigma = [F S' F^T + (pi - theta) I] / J with S' = J^(-2/3) S_bar, (1.5) pushed forward.
+template <class T, Material L>
+TUNICA_INLINE Symmetric<T> cauchy(const Kinematics<T>& k, const L& law, const T& pi) {
+  const Symmetric<T> S_bar = stress(law, k.C_bar);
+  const T inverse_J = T(1.0) / k.J;
+  const Mat3<T> FS = k.F * full(k.scale * S_bar);
+  const T isotropic = pi - T(1.0 / 3.0) * double_dot(S_bar, k.C_bar);
+  Symmetric<T> sigma;
+  for (int n = 0; n < voigt_size; ++n) {
+    const int i = voigt_row[n], j = voigt_column[n];
+    T sum = FS(i, 0) * k.F(j, 0) + FS(i, 1) * k.F(j, 1) + FS(i, 2) * k.F(j, 2);
+    if (i == j) sum += isotropic;
+    sigma[n] = inverse_J * sum;
+  }
+  return sigma;
+}
+
+}  // namespace detail
+
+/// Cauchy stress of a displacement element [Pa], global axes, Voigt 11 22 33 12 23 13.
+template <class T, Material L>
+TUNICA_INLINE Symmetric<T> displacement_cauchy_stress(const ElementState<T>& e, const L& law, const Body& body) {
+  const Kinematics<T> k = kinematics(e);
+  const T pi = T(body.volumetric.bulk_modulus) * k.J * body.volumetric.unit_pressure(k.J);
+  return detail::cauchy(k, law, pi);
+}
+
+/// Cauchy stress of a mixed element with its mean pressure [Pa], global axes, Voigt 11 22 33 12 23 13.
+template <class T, Material L>
+TUNICA_INLINE Symmetric<T> mixed_cauchy_stress(const ElementState<T>& e, const L& law) {
+  const Kinematics<T> k = kinematics(e);
+  return detail::cauchy(k, law, T(-k.J * detail::mean_pressure(e)));
+}
+
+/// von Mises equivalent stress [Pa].
+template <class T>
+TUNICA_INLINE T von_mises(const Symmetric<T>& s) {
+  const T a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return sqrt(T(0.5) * (a * a + b * b + c * c) + T(3.0) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+/// Principal stresses [Pa], largest first (Smith 1961, trigonometric solution).
+Vec3<double> principal_stresses(const Symmetric<double>& s);
+
+}  // namespace tunica::wall

@@ -1,0 +1,82 @@
+#include "tunica/wall/output.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/wall/test_laws.hpp"
+
+namespace tunica::wall {
+namespace {
+
+using test::some_state;
+
+/// The stress power of a uniform virtual velocity gradient: sum_a r_a . (L x_a) = v sigma : L.
+TEST(WallOutput, CauchyStressIsWorkConjugate) {
+  std::mt19937 random(13);
+  for (bool mixed : {false, true}) {
+    ElementState<double> e = some_state(random);
+    for (auto& a : e.acceleration) a = {{0, 0, 0}};
+    const Body body{.density = 1.0, .volumetric = {VolumetricEnergy::simo_taylor, 40.0}};
+    const test::ExponentialFibre law;
+    fe::ElementVector<double> r;
+    if (mixed)
+      mixed_residual(e, law, body, {}, r);
+    else
+      displacement_residual(e, law, body, r);
+    const Symmetric<double> sigma = mixed ? mixed_cauchy_stress(e, law) : displacement_cauchy_stress(e, law, body);
+    // Current positions relative to node 0 through F and the reference edges.
+    Mat3<double> G;
+    for (int a = 0; a < 3; ++a)
+      for (int i = 0; i < 3; ++i) G(a, i) = e.reference.dN[a + 1][i];
+    const Kinematics<double> k = kinematics(e);
+    const Mat3<double> x = k.F * inverse(G);  // columns
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        double power = 0.0;
+        for (int a = 1; a < 4; ++a) power += r.r[a][i] * x(j, a - 1);
+        EXPECT_NEAR(power, k.J * e.reference.volume * sigma[voigt_index[i][j]], 1e-13);
+      }
+  }
+}
+
+TEST(WallOutput, KineticEnergyOfAUniformAndOfALinearField) {
+  const Vec3<double> uniform[4] = {{{1, 2, 2}}, {{1, 2, 2}}, {{1, 2, 2}}, {{1, 2, 2}}};
+  EXPECT_NEAR(kinetic_energy(0.5, uniform, 4.0), 0.5 * 4.0 * 0.5 * 9.0, 1e-14);
+  const Vec3<double> single[4] = {{{0, 0, 0}}, {{3, 0, 0}}, {{0, 0, 0}}, {{0, 0, 0}}};
+  EXPECT_NEAR(kinetic_energy(0.5, single, 4.0), 0.5 * 4.0 * 0.5 * 9.0 / 10.0, 1e-14);
+}
+
+/// For the quadratic energy, p = -K (J - 1) makes both elements store the same.
+TEST(WallOutput, StrainEnergiesAgreeForTheQuadraticEnergy) {
+  std::mt19937 random(17);
+  ElementState<double> e = some_state(random);
+  const Body body{.density = 1.0, .volumetric = {VolumetricEnergy::quadratic, 40.0}};
+  for (double& p : e.pressure) p = -40.0 * (kinematics(e).J - 1.0);
+  EXPECT_NEAR(mixed_strain_energy(e, NeoHooke{2.0}, body), displacement_strain_energy(e, NeoHooke{2.0}, body), 1e-13);
+  const Body incompressible{.density = 1.0, .volumetric = {}};
+  EXPECT_NEAR(mixed_strain_energy(e, NeoHooke{2.0}, incompressible),
+              e.reference.volume * NeoHooke{2.0}.energy(kinematics(e).C_bar), 1e-14);
+}
+
+TEST(WallOutput, PrincipalStressesAndVonMises) {
+  const Symmetric<double> uniaxial{{5.0, 0, 0, 0, 0, 0}};
+  EXPECT_DOUBLE_EQ(von_mises(uniaxial), 5.0);
+  // Eigenvalues 7, 2, -3 turned by a rotation.
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const Mat3<double> Q{{{c, -s, 0}, {0.6 * s, 0.6 * c, -0.8}, {0.8 * s, 0.8 * c, 0.6}}};
+  const double values[3] = {2.0, 7.0, -3.0};
+  Symmetric<double> turned{};
+  for (int n = 0; n < 6; ++n)
+    for (int k = 0; k < 3; ++k) turned[n] += values[k] * Q(voigt_row[n], k) * Q(voigt_column[n], k);
+  const Vec3<double> p = principal_stresses(turned);
+  EXPECT_NEAR(p[0], 7.0, 1e-13);
+  EXPECT_NEAR(p[1], 2.0, 1e-13);
+  EXPECT_NEAR(p[2], -3.0, 1e-13);
+  EXPECT_NEAR(von_mises(turned), std::sqrt(0.5 * (25.0 + 25.0 + 100.0)), 1e-12);
+  const Vec3<double> spherical = principal_stresses({{4.0, 4.0, 4.0, 0, 0, 0}});
+  EXPECT_DOUBLE_EQ(spherical[1], 4.0);
+}
+
+}  // namespace
+}  // namespace tunica::wall
