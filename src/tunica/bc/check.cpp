@@ -2,28 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
 #include <set>
+
+#include "tunica/config/nearest.hpp"
 
 namespace tunica::bc {
 
 namespace {
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -66,7 +51,7 @@ class Checker {
   }
 
   std::string remedy_for_unknown(const std::string& name) const {
-    const auto nearest = nearest_name(name, names_);
+    const auto nearest = config::nearest(name, names_);
     return (nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest)) +
            "faces of the mesh: " + listed(names_);
   }
@@ -169,17 +154,6 @@ class Checker {
 };
 
 }  // namespace
-
-std::string nearest_name(const std::string& wanted, const std::vector<std::string>& existing) {
-  std::string best;
-  std::size_t least = wanted.size() / 3 + 1;
-  for (const auto& name : existing)
-    if (const auto distance = edit_distance(wanted, name); distance < least) {
-      least = distance;
-      best = name;
-    }
-  return best;
-}
 
 std::vector<Problem> check_boundary(const BoundaryCase& boundary) { return Checker(boundary).run(); }
 

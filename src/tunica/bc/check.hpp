@@ -36,8 +36,4 @@ struct BoundaryCase {
 /// - static wall without a fixed or supporting face, or fixed in too few directions to hold it
 std::vector<Problem> check_boundary(const BoundaryCase& boundary);
 
-/// The existing name with the smallest edit distance, when it is near enough to be a slip (at most a third of the
-/// letters); else empty.
-std::string nearest_name(const std::string& wanted, const std::vector<std::string>& existing);
-
 }  // namespace tunica::bc

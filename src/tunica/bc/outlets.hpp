@@ -29,11 +29,11 @@ struct Resistance {
 
 /// P = P_c + R_p Q,  C dP_c/dt = Q - (P_c - P_d)/R_d.
 struct Rcr {
-  double proximal = 0.0;                   ///< R_p, Pa s/m^3, >= 0
-  double capacitance = 0.0;                ///< C, m^3/Pa, > 0
-  double distal = 0.0;                     ///< R_d, Pa s/m^3, > 0
-  double distal_pressure = 0.0;            ///< P_d, Pa
-  std::optional<double> initial_pressure;  ///< P_c(0), Pa; none: P_d
+  double proximal = 0.0;                        ///< R_p, Pa s/m^3, >= 0
+  double capacitance = 0.0;                     ///< C, m^3/Pa, > 0
+  double distal = 0.0;                          ///< R_d, Pa s/m^3, > 0
+  double distal_pressure = 0.0;                 ///< P_d, Pa
+  std::optional<double> initial_pressure = {};  ///< P_c(0), Pa; none: P_d
 };
 
 /// Pressure of an outlet inside a step and its slope.

@@ -22,8 +22,8 @@ enum class Interpolation {
 /// them count as equal, so that a step that ends at t sees the value of the interval it has crossed.
 struct Step {
   double value = 0.0;
-  double start = 0.0;         ///< s
-  std::optional<double> end;  ///< s; none: for ever
+  double start = 0.0;              ///< s
+  std::optional<double> end = {};  ///< s; none: for ever
 };
 
 enum class TableFormat {
@@ -36,10 +36,10 @@ enum class TableFormat {
 struct TableFile {
   std::filesystem::path path;
   TableFormat format = TableFormat::automatic;
-  std::string time_column;   ///< CSV only; empty: the first column
-  std::string value_column;  ///< CSV only; empty: the second one, if there are just two
-  double time_unit = 1.0;    ///< s per unit of the time column; for a phase 0..1, the period
-  double value_unit = 1.0;   ///< SI per unit of the value column
+  std::string time_column = {};   ///< CSV only; empty: the first column
+  std::string value_column = {};  ///< CSV only; empty: the second one, if there are just two
+  double time_unit = 1.0;         ///< s per unit of the time column; for a phase 0..1, the period
+  double value_unit = 1.0;        ///< SI per unit of the value column
 };
 
 /// Points of a time course, t strictly increasing.
@@ -60,7 +60,7 @@ struct TableOptions {
   bool periodic = true;
   /// s; must not be shorter than the table. None: the table spans one period, and its last value must repeat the
   /// first one within 0.1 % of the range. Given: the curve returns to the first value one period after the first time.
-  std::optional<double> period;
+  std::optional<double> period = {};
   int modes = 0;  ///< Fourier only, the mean included; 0: as many as the file says
 };
 
