@@ -97,6 +97,12 @@ std::string list_places(std::span<const Vec3<double>> places) {
   return text;
 }
 
+std::string list_names(std::span<const std::string> names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std::string& where) {
   std::vector<Problem> problems;
   std::vector<std::int32_t> owner(boundary.triangles().size(), -1);

@@ -45,6 +45,9 @@ void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std:
 /// "(x, y, z) m" of the first few `places` and how many more there are.
 std::string list_places(std::span<const Vec3<double>> places);
 
+/// The names, separated by commas.
+std::string list_names(std::span<const std::string> names);
+
 /// Centroid of a triangle or tetrahedron [m].
 template <std::size_t N>
 Vec3<double> centroid(const std::vector<Vec3<double>>& points, const std::array<std::int64_t, N>& nodes) {

@@ -1,8 +1,8 @@
 #include "tunica/mesh/generate.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "tunica/base/error.hpp"

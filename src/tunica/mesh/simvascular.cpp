@@ -1,0 +1,250 @@
+#include "tunica/mesh/simvascular.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "tunica/base/error.hpp"
+#include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/point_locator.hpp"
+#include "tunica/mesh/quality.hpp"
+#include "tunica/mesh/vtk_files.hpp"
+
+namespace tunica::mesh {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Index = std::int64_t;
+
+constexpr int vtk_triangle = 5, vtk_tetrahedron = 10;
+
+std::vector<fs::path> surface_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  const auto surfaces = folder / "mesh-surfaces";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(surfaces, error))
+    if (entry.path().extension() == ".vtp") files.push_back(entry.path());
+  if (files.empty())
+    throw InputError(surfaces.string(), error ? "cannot be read: " + error.message() : "holds no .vtp file",
+                     "export the mesh with its named faces (SimVascular: mesh-complete with mesh-surfaces)");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Points in metres. Throws where a coordinate is not a finite number.
+std::vector<Vec3<double>> scaled_points(const VtkCells& cells, double metres_per_unit, const std::string& where) {
+  std::vector<Vec3<double>> points = cells.points;
+  Index bad = 0, first_bad = -1;
+  for (Index n = 0; n < std::ssize(points); ++n) {
+    points[n] = metres_per_unit * points[n];
+    const auto& x = points[n];
+    if (!(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) && bad++ == 0) first_bad = n;
+  }
+  if (bad > 0)
+    throw InputError(where,
+                     fmt::format("{} of {} nodes have coordinates that are not finite; the first is node {}", bad,
+                                 points.size(), first_bad + 1),
+                     "export the mesh again");
+  return points;
+}
+
+/// Cells as arrays of N nodes. Throws when there are none, or some of another type.
+template <std::size_t N>
+std::vector<std::array<Index, N>> cells_of_type(const VtkCells& cells, int type, const std::string& type_name,
+                                                double metres_per_unit, const std::string& where) {
+  std::vector<std::array<Index, N>> result;
+  std::vector<Vec3<double>> others;
+  int other_type = 0;
+  for (Index c = 0; c < std::ssize(cells.types); ++c) {
+    const auto begin = cells.offsets[c], end = cells.offsets[c + 1];
+    if (cells.types[c] == type && end - begin == static_cast<Index>(N)) {
+      std::array<Index, N> nodes;
+      std::copy_n(cells.connectivity.begin() + begin, N, nodes.begin());
+      result.push_back(nodes);
+      continue;
+    }
+    other_type = cells.types[c];
+    others.push_back(end > begin ? metres_per_unit * cells.points[cells.connectivity[begin]] : Vec3<double>{{0, 0, 0}});
+  }
+  if (!others.empty())
+    throw InputError(where,
+                     fmt::format("{} of {} cells are not linear {} (VTK cell type {}): near {}", others.size(),
+                                 cells.types.size(), type_name, other_type, list_places(others)),
+                     fmt::format("export a mesh of linear {} only", type_name));
+  if (result.empty()) throw InputError(where, "holds no cells", "export the mesh again");
+  return result;
+}
+
+void refuse_unused_nodes(const MeshData& data, const std::string& where) {
+  std::vector<bool> used(data.points.size(), false);
+  for (const auto& t : data.tetrahedra)
+    for (const auto n : t) used[n] = true;
+  std::vector<Vec3<double>> unused;
+  for (std::size_t n = 0; n < used.size(); ++n)
+    if (!used[n]) unused.push_back(data.points[n]);
+  if (!unused.empty())
+    throw InputError(
+        where,
+        fmt::format("{} of {} nodes belong to no tetrahedron: {}", unused.size(), used.size(), list_places(unused)),
+        "remove these nodes from the mesh");
+}
+
+/// Position of each global ID; empty when the file has no IDs, and then ID - 1 is the position.
+class IdMap {
+ public:
+  IdMap(const std::vector<Index>& ids, Index size) : size_(size) {
+    for (Index i = 0; i < std::ssize(ids); ++i) position_.emplace(ids[i], i);
+  }
+  Index operator()(Index id) const {  ///< -1 for an unknown ID
+    if (position_.empty()) return id >= 1 && id <= size_ ? id - 1 : -1;
+    const auto found = position_.find(id);
+    return found == position_.end() ? -1 : found->second;
+  }
+
+ private:
+  Index size_;
+  std::unordered_map<Index, Index> position_;
+};
+
+/// What the faces of one volume are matched against.
+struct Volume {
+  const MeshData& data;
+  const Boundary& boundary;
+  IdMap nodes, elements;
+  std::vector<Index> boundary_nodes;
+  std::vector<Vec3<double>> boundary_points;
+};
+
+Volume make_volume(const MeshData& data, const Boundary& boundary, const VtkCells& file) {
+  Volume v{data,
+           boundary,
+           IdMap(file.global_node_ids, std::ssize(data.points)),
+           IdMap(file.global_element_ids, std::ssize(data.tetrahedra)),
+           {},
+           {}};
+  for (const auto& t : boundary.triangles())
+    v.boundary_nodes.insert(v.boundary_nodes.end(), t.nodes.begin(), t.nodes.end());
+  std::sort(v.boundary_nodes.begin(), v.boundary_nodes.end());
+  v.boundary_nodes.erase(std::unique(v.boundary_nodes.begin(), v.boundary_nodes.end()), v.boundary_nodes.end());
+  for (const auto n : v.boundary_nodes) v.boundary_points.push_back(data.points[n]);
+  return v;
+}
+
+struct FaceNodes {
+  std::vector<Index> nodes;  ///< of the volume, for each point of the face; -1 where there is none
+  std::string how;
+};
+
+FaceNodes nodes_of_face(const Volume& volume, const VtkCells& file, const std::vector<Vec3<double>>& points,
+                        const std::vector<double>& allowed) {
+  FaceNodes result;
+  const Index n = std::ssize(points);
+  Index right = 0;
+  for (Index i = 0; i < std::ssize(file.global_node_ids); ++i) {
+    const Index node = volume.nodes(file.global_node_ids[i]);
+    result.nodes.push_back(node);
+    if (node >= 0 && norm(volume.data.points[node] - points[i]) <= allowed[i]) ++right;
+  }
+  if (right == n) {
+    result.how = fmt::format("nodes by GlobalNodeID, all {} right", n);
+    return result;
+  }
+  result.how = file.global_node_ids.empty()
+                   ? std::string("nodes by coordinates, there is no GlobalNodeID")
+                   : fmt::format("nodes by coordinates, since GlobalNodeID is right for {} of {} only", right, n);
+  const double radius = *std::max_element(allowed.begin(), allowed.end());
+  result.nodes.assign(n, -1);
+  if (radius == 0) return result;  // all triangles are points: none can be on the boundary
+  const PointLocator locator(volume.boundary_points, radius);
+  for (Index i = 0; i < n; ++i) {
+    const Index found = locator.nearest(points[i], allowed[i]);
+    if (found >= 0) result.nodes[i] = volume.boundary_nodes[found];
+  }
+  return result;
+}
+
+std::string compare_element_ids(const Volume& volume, const VtkCells& file, const FaceData& face) {
+  if (file.global_element_ids.empty()) return "no GlobalElementID";
+  Index right = 0, one_low = 0;
+  for (std::size_t i = 0; i < face.triangles.size(); ++i) {
+    const Index found = volume.boundary.find(face.triangles[i]);
+    if (found < 0) continue;
+    const Index element = volume.boundary.triangles()[found].element;
+    if (volume.elements(file.global_element_ids[i]) == element) ++right;
+    if (volume.elements(file.global_element_ids[i] + 1) == element) ++one_low;
+  }
+  const auto n = face.triangles.size();
+  if (one_low > 0) return fmt::format("GlobalElementID right for {} of {}, one too low for {}", right, n, one_low);
+  return fmt::format("GlobalElementID right for {} of {}", right, n);
+}
+
+FaceData read_face(const fs::path& path, const Volume& volume, const SimVascularOptions& options,
+                   std::vector<std::string>& report) {
+  const auto file = read_vtk_surface(path);
+  const auto where = path.string();
+  const auto points = scaled_points(file, options.metres_per_unit, where);
+  FaceData face{path.stem().string(), 0, {}};
+  face.triangles = cells_of_type<3>(file, vtk_triangle, "triangles", options.metres_per_unit, where);
+  auto allowed = shortest_edges(points, face.triangles);
+  for (auto& a : allowed) a *= options.tolerance;
+  const auto found = nodes_of_face(volume, file, points, allowed);
+  std::vector<Vec3<double>> missing;
+  for (auto& t : face.triangles)
+    for (auto& n : t) {
+      if (found.nodes[n] < 0) missing.push_back(points[n]);
+      n = found.nodes[n];
+    }
+  if (!missing.empty())
+    throw InputError(where,
+                     fmt::format("{} corners of triangles are no boundary nodes of the volume mesh (tolerance {:g} of "
+                                 "the local edge length): {}",
+                                 missing.size(), options.tolerance, list_places(missing)),
+                     "export faces and volume from the same mesh in the same unit");
+  report.push_back(fmt::format("face {}: {} triangles; {}; {}", face.name, face.triangles.size(), found.how,
+                               compare_element_ids(volume, file, face)));
+  return face;
+}
+
+}  // namespace
+
+LoadedMesh read_simvascular(const fs::path& folder, RegionKind kind, const std::string& name,
+                            const SimVascularOptions& options) {
+  if (!(options.metres_per_unit > 0 && std::isfinite(options.metres_per_unit)))
+    throw InputError(folder.string(), fmt::format("length unit of {} m, must be positive", options.metres_per_unit),
+                     "declare the length unit of the mesh");
+  const auto surfaces = surface_files(folder);
+  const auto volume_path = folder / "mesh-complete.mesh.vtu";
+  const auto where = volume_path.string();
+  const auto file = read_vtk_volume(volume_path);
+
+  LoadedMesh mesh;
+  auto& data = mesh.data;
+  data.points = scaled_points(file, options.metres_per_unit, where);
+  data.tetrahedra = cells_of_type<4>(file, vtk_tetrahedron, "tetrahedra", options.metres_per_unit, where);
+  data.regions = {{name, kind, 0, std::ssize(data.tetrahedra)}};
+  refuse_unused_nodes(data, where);
+  mesh.report.push_back(fmt::format("{}: {} nodes, {} tetrahedra, {} faces; GlobalNodeID {}, GlobalElementID {}", where,
+                                    data.points.size(), data.tetrahedra.size(), surfaces.size(),
+                                    file.global_node_ids.empty() ? "absent" : "present",
+                                    file.global_element_ids.empty() ? "absent" : "present"));
+  if (auto turned = orient_elements(data, where); !turned.empty()) mesh.report.push_back(std::move(turned));
+
+  const Boundary boundary(data.tetrahedra, std::ssize(data.points), where);
+  const auto volume = make_volume(data, boundary, file);
+  std::vector<Problem> problems;
+  std::vector<FaceData> faces;
+  for (const auto& path : surfaces) try {
+      faces.push_back(read_face(path, volume, options, mesh.report));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  data.faces = std::move(faces);
+  orient_and_check_faces(data, boundary, folder.string());
+  return mesh;
+}
+
+}  // namespace tunica::mesh

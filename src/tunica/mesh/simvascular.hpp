@@ -1,0 +1,30 @@
+// Reads the meshes that SimVascular exports.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tunica/mesh/loaded_mesh.hpp"
+
+namespace tunica::mesh {
+
+struct SimVascularOptions {
+  double metres_per_unit = 0;  ///< length unit of the files, for example 0.01 for cm; > 0
+  double tolerance = 1e-3;     ///< for the coordinates of face nodes, as a share of the shortest edge at the node
+};
+
+/// Reads a `mesh-complete` folder: `mesh-complete.mesh.vtu` and one named face for each `mesh-surfaces/*.vtp` (other
+/// surfaces in the folder are unions of these and not read). Any VTK encoding, Float32 or Float64 points.
+///
+/// The nodes of a face are taken from GlobalNodeID where those lead to the same coordinates (through the GlobalNodeID
+/// of the volume, or as 1-based positions when it has none), otherwise all from the coordinates. GlobalElementID is
+/// compared with the elements and reported, nothing depends on it. Triangles are turned outward.
+///
+/// Returns one region called `name` whose faces are called after their files. Throws InputError for missing or
+/// unreadable files, cells that are not linear tetrahedra, coordinates that are not finite, nodes without element,
+/// inverted elements, face nodes that the volume does not have, and a boundary that the faces do not cover exactly
+/// once.
+LoadedMesh read_simvascular(const std::filesystem::path& folder, RegionKind kind, const std::string& name,
+                            const SimVascularOptions& options);
+
+}  // namespace tunica::mesh
