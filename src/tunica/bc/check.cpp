@@ -130,8 +130,8 @@ class Checker {
     for (const auto& [name, condition] : boundary_.conditions) {
       if (const auto* face = find(name); !face || face->field != Field::wall) continue;
       if (const auto* fixed = std::get_if<Fixed>(&condition)) {
-        if (fixed->directions != Fixed::Directions::axes) return;
-        for (int i = 0; i < 3; ++i) held[i] = held[i] || fixed->axes[i];
+        if (fixed->along_normal()) return;
+        for (int i = 0; i < 3; ++i) held[i] = held[i] || fixed->axes()[i];
       }
       if (const auto* support = std::get_if<Support>(&condition); support && support->stiffness > 0) return;
     }

@@ -30,4 +30,11 @@ bool fits_lumen(const Condition& condition) { return traits[condition.index()].l
 bool fits_wall(const Condition& condition) { return traits[condition.index()].wall; }
 bool prescribes_velocity(const Condition& condition) { return traits[condition.index()].velocity; }
 
+Waveform inflow(const Flow& flow) {
+  const auto* table = std::get_if<TableSource>(&flow.course.source);
+  const bool outflow = flow.positive == Flow::Sign::outflow ||
+                       (flow.positive == Flow::Sign::automatic && table && is_simvascular(table->file));
+  return make_waveform(flow.course).scaled(outflow ? -1.0 : 1.0);
+}
+
 }  // namespace tunica::bc

@@ -1,7 +1,7 @@
 // All conditions that a face can have, as plain values in SI units. Exactly one per face.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <string_view>
 #include <variant>
 
@@ -10,28 +10,44 @@
 #include "tunica/bc/outlets.hpp"
 #include "tunica/bc/waveform.hpp"
 
+namespace tunica::config {
+template <class T>
+class Schema;
+}
+
 namespace tunica::bc {
 
 // --- lumen faces ------------------------------------------------------------------------------------------------
 
-struct NoSlip {};
+struct NoSlip {
+  static config::Schema<NoSlip> schema();
+};
 
 /// v = value * course(t), the same at all nodes of the face.
 struct Velocity {
   Vec3<double> value{};       ///< m/s
   WaveformInput course{1.0};  ///< dimensionless
+  static config::Schema<Velocity> schema();
 };
 
-/// Flow Q(t) through the face with a profile. `flow` is positive *into* the domain whatever the file's convention was.
+/// Flow Q(t) through the face with a profile; `inflow` gives Q positive *into* the domain.
 struct Flow {
-  WaveformInput flow;  ///< m^3/s
+  /// What a positive number of the case file or table means. `automatic`: inflow, but outflow in tables of the
+  /// SimVascular format, where inflow is negative.
+  enum class Sign { automatic, inflow, outflow };
+  WaveformInput course;  ///< m^3/s, as given
+  Sign positive = Sign::automatic;
   Profile profile = Profile::parabolic;
+  static config::Schema<Flow> schema();
 };
+/// Q(t) [m^3/s], positive into the domain. Throws as make_waveform.
+Waveform inflow(const Flow& flow);
 
 /// Traction `vector * course(t)` per current area of a lumen face, per reference area (dead load) of a wall face.
 struct Traction {
   Vec3<double> vector{};      ///< Pa
   WaveformInput course{1.0};  ///< dimensionless
+  static config::Schema<Traction> schema();
 };
 
 // Resistance and Rcr: outlets.hpp.
@@ -43,18 +59,28 @@ struct Traction {
 struct Pressure {
   WaveformInput pressure;  ///< Pa
   bool follower = true;
+  static config::Schema<Pressure> schema();
 };
 
 // --- wall faces -------------------------------------------------------------------------------------------------
 
 /// Zero displacement, in all directions, along the face's mean normal, or along some axes.
 struct Fixed {
-  enum class Directions { all, normal, axes };
-  Directions directions = Directions::all;
-  std::array<bool, 3> axes{true, true, true};  ///< x, y, z; read with Directions::axes only
+  enum Direction { x, y, z, normal, all };
+  std::array<bool, 5> directions{false, false, false, false, true};  ///< by Direction; `all` and `normal` stand alone
+
+  /// Only along the mean normal? Then `axes` says nothing.
+  bool along_normal() const { return directions[normal]; }
+  /// Is the displacement along x, y, z fixed?
+  std::array<bool, 3> axes() const {
+    return {directions[all] || directions[x], directions[all] || directions[y], directions[all] || directions[z]};
+  }
+  static config::Schema<Fixed> schema();
 };
 
-struct Free {};
+struct Free {
+  static config::Schema<Free> schema();
+};
 
 /// Elastic tissue around the wall: traction -k_s u - c_s du/dt - p0 n, the first two of the full vectors or of their
 /// normal parts, on the reference face.
@@ -64,9 +90,14 @@ struct Support {
   double damping = 0.0;    ///< c_s, N s/m^3
   double pressure = 0.0;   ///< p0, Pa
   Direction direction = Direction::full;
+  static config::Schema<Support> schema();
 };
 
 using Condition = std::variant<NoSlip, Velocity, Flow, Pressure, Traction, Resistance, Rcr, Fixed, Free, Support>;
+
+/// Exactly one of the keys no_slip, velocity, flow, pressure, traction, resistance, rcr, fixed, free, support:
+/// `outlet: {rcr: {...}}`; those without required keys may stand as a bare name, `wall_outer: free`.
+config::Schema<Condition> condition_schema();
 
 /// Name as in the case file: "no_slip", "velocity", ...
 std::string_view name(const Condition& condition);

@@ -19,12 +19,18 @@
 #include <variant>
 #include <vector>
 
+namespace tunica::config {
+template <class T>
+class Schema;
+}
+
 namespace tunica::bc {
 
 /// P = R Q + P_d.
 struct Resistance {
   double resistance = 0.0;       ///< Pa s/m^3, >= 0
   double distal_pressure = 0.0;  ///< Pa
+  static config::Schema<Resistance> schema();
 };
 
 /// P = P_c + R_p Q,  C dP_c/dt = Q - (P_c - P_d)/R_d.
@@ -34,6 +40,7 @@ struct Rcr {
   double distal = 0.0;                          ///< R_d, Pa s/m^3, > 0
   double distal_pressure = 0.0;                 ///< P_d, Pa
   std::optional<double> initial_pressure = {};  ///< P_c(0), Pa; none: P_d
+  static config::Schema<Rcr> schema();
 };
 
 /// Pressure of an outlet inside a step and its slope.

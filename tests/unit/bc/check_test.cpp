@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "tunica/bc/check.hpp"
+
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -81,7 +81,7 @@ TEST(Check, StaticWallNeedsSupport) {
   auto& ring = boundary.conditions[3].second;
   ring = Free{};
   EXPECT_TRUE(has(check_boundary(boundary), "boundary", "along x, y, z"));
-  ring = Fixed{Fixed::Directions::axes, {false, false, true}};
+  ring = Fixed{{false, false, true, false, false}};
   EXPECT_TRUE(has(check_boundary(boundary), "boundary", "along x, y in"));
   boundary.conditions[2].second = Support{.stiffness = 1e7};
   EXPECT_TRUE(check_boundary(boundary).empty());

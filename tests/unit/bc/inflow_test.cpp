@@ -1,3 +1,5 @@
+#include "tunica/bc/inflow.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <vector>
 
 #include "tunica/base/error.hpp"
-#include "tunica/bc/inflow.hpp"
 
 namespace {
 

@@ -1,3 +1,5 @@
+#include "tunica/bc/outlets.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <sstream>
 
 #include "tunica/base/error.hpp"
-#include "tunica/bc/outlets.hpp"
 
 namespace {
 

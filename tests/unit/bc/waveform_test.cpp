@@ -1,3 +1,5 @@
+#include "tunica/bc/waveform.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <numbers>
 
 #include "tunica/base/error.hpp"
-#include "tunica/bc/waveform.hpp"
 
 namespace {
 

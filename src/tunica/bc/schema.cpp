@@ -1,0 +1,228 @@
+// The case-file keys of all boundary conditions.
+#include "tunica/config/schema.hpp"
+
+#include "tunica/bc/conditions.hpp"
+
+namespace tunica::bc {
+
+namespace dimension = config::dimension;
+using config::above;
+using config::anything;
+using config::at_least;
+using config::emplace;
+using config::Problems;
+using config::Schema;
+
+namespace {
+
+Schema<Step> step_schema(const config::Dimension& due) {
+  return Schema<Step>("step", "Constant between two times, zero before and after.")
+      .quantity("value", &Step::value, due, anything(), "Value while it lasts")
+      .quantity("start", &Step::start, dimension::time, at_least(0), "Zero up to and at this time")
+      .by_default()
+      .quantity("end", &Step::end, dimension::time, above(0), "Zero after this time; for ever when left out")
+      .check([](const Step& step, Problems& problems) {
+        if (step.end && *step.end <= step.start)
+          problems.add("end", "the step ends before it starts", "give an `end` after `start`, or leave it out");
+      });
+}
+
+void check_table(const TableSource& table, Problems& problems) {
+  const auto& options = table.options;
+  if (!options.periodic && options.period)
+    problems.add("period", "a period is given with `periodic: false`", "remove one of them");
+  if (!options.periodic && options.interpolation == Interpolation::fourier)
+    problems.add("interpolation", "a Fourier series needs a periodic table", "set `periodic: true` or use spline");
+  if (options.modes > 0 && options.interpolation != Interpolation::fourier)
+    problems.add("modes", "modes belong to a Fourier series", "set `interpolation: fourier` or remove `modes`");
+}
+
+Schema<TableSource> table_schema(const config::Dimension& due) {
+  Schema<TableSource> schema("table", "Time course from a file.");
+  schema
+      .file(
+          "file", [](TableSource & t) -> auto& { return t.file.path; },
+          "CSV with a header line, or a SimVascular .flow file")
+      .choice(
+          "format", [](TableSource & t) -> auto& { return t.file.format; },
+          {{"automatic", TableFormat::automatic}, {"csv", TableFormat::csv}, {"simvascular", TableFormat::simvascular}},
+          "Automatic: by the extension, .csv or .flow")
+      .by_default()
+      .text(
+          "time_column", [](TableSource & t) -> auto& { return t.file.time_column; },
+          "CSV: name of the time column; the first one when left out")
+      .optional()
+      .text(
+          "value_column", [](TableSource & t) -> auto& { return t.file.value_column; },
+          "CSV: name of the value column; may be left out when there are two columns")
+      .optional()
+      .unit(
+          "time_unit", [](TableSource & t) -> auto& { return t.file.time_unit; }, dimension::time,
+          "Unit of the time column; for a phase from 0 to 1 the period, such as `0.9 s`");
+  if (due == dimension::none)
+    schema
+        .number(
+            "unit", [](TableSource & t) -> auto& { return t.file.value_unit; }, above(0), "Factor of the value column")
+        .by_default();
+  else
+    schema.unit(
+        "unit", [](TableSource & t) -> auto& { return t.file.value_unit; }, due,
+        "Unit of the value column; for values relative to a reference that reference, such as `5 L/min`");
+  schema
+      .choice(
+          "interpolation", [](TableSource & t) -> auto& { return t.options.interpolation; },
+          {{"linear", Interpolation::linear}, {"spline", Interpolation::spline}, {"fourier", Interpolation::fourier}},
+          "Straight lines, cubic spline, or the first modes of the Fourier series")
+      .by_default()
+      .flag(
+          "periodic", [](TableSource & t) -> auto& { return t.options.periodic; },
+          "Repeat the table; if false, times outside it are an error")
+      .by_default()
+      .quantity(
+          "period", [](TableSource & t) -> auto& { return t.options.period; }, dimension::time, above(0),
+          "Period, when the table stops before its end; by default the table spans one period and closes")
+      .integer(
+          "modes", [](TableSource & t) -> auto& { return t.options.modes; }, at_least(1),
+          "Fourier modes, the mean included; when left out those named in a .flow file")
+      .optional()
+      .check(check_table);
+  return schema;
+}
+
+using Source = std::variant<double, Step, TableSource>;
+
+Schema<Source> source_schema(const config::Dimension& due) {
+  return Schema<Source>("source", "Constant, step or table.")
+      .one_of()
+      .quantity("value", emplace<double>, due, anything(), "Constant value")
+      .section("step", emplace<Step>, step_schema(due), "Constant between two times, zero before and after")
+      .section("table", emplace<TableSource>, table_schema(due), "Time course from a file");
+}
+
+/// Keys of a time course: value | step | table, scale, ramp_time.
+Schema<WaveformInput> waveform_schema(const config::Dimension& due) {
+  return Schema<WaveformInput>("waveform", "Time course of a boundary value.")
+      .include(&WaveformInput::source, source_schema(due))
+      .number("scale", &WaveformInput::scale, anything(), "Factor on the whole course")
+      .by_default()
+      .quantity("ramp_time", &WaveformInput::ramp_time, dimension::time, at_least(0),
+                "Start-up: the course is multiplied by (1 - cos(pi t / ramp_time)) / 2 until then")
+      .by_default();
+}
+
+}  // namespace
+
+Schema<NoSlip> NoSlip::schema() { return Schema<NoSlip>("no_slip", "Blood at rest at a rigid wall."); }
+
+Schema<Velocity> Velocity::schema() {
+  return Schema<Velocity>("velocity", "The same velocity at all nodes of the face.")
+      .quantities("value", &Velocity::value, dimension::velocity, anything(), "Velocity vector x, y, z")
+      .plausible("-10 m/s", "10 m/s")
+      .section("waveform", &Velocity::course, waveform_schema(dimension::none),
+               "Factor over time; constant when left out")
+      .optional();
+}
+
+Schema<Flow> Flow::schema() {
+  return Schema<Flow>("flow", "Flow rate through an opening, with a velocity profile that vanishes on its rim.")
+      .include(&Flow::course, waveform_schema(dimension::volume_flow))
+      .choice("positive", &Flow::positive,
+              {{"automatic", Sign::automatic}, {"inflow", Sign::inflow}, {"outflow", Sign::outflow}},
+              "What a positive number means; automatic: inflow, but outflow in SimVascular tables")
+      .by_default()
+      .choice("profile", &Flow::profile, {{"parabolic", Profile::parabolic}, {"flat", Profile::flat}},
+              "Parabolic: fully developed, for an opening of any shape; flat: constant up to the rim")
+      .by_default()
+      .shorthand("value");
+}
+
+Schema<Traction> Traction::schema() {
+  return Schema<Traction>("traction", "Force per area with a fixed direction.")
+      .quantities("value", &Traction::vector, dimension::pressure, anything(), "Traction vector x, y, z")
+      .plausible("-400 mmHg", "400 mmHg")
+      .section("waveform", &Traction::course, waveform_schema(dimension::none),
+               "Factor over time; constant when left out")
+      .optional();
+}
+
+Schema<Pressure> Pressure::schema() {
+  return Schema<Pressure>("pressure", "Pressure on the face, against its outward normal.")
+      .include(&Pressure::pressure, waveform_schema(dimension::pressure))
+      .flag("follower", &Pressure::follower,
+            "On a wall face: true follows the deformed face, false keeps the reference normal and area")
+      .by_default()
+      .shorthand("value");
+}
+
+Schema<Resistance> Resistance::schema() {
+  return Schema<Resistance>("resistance", "Outlet whose pressure grows with the flow: P = R Q + P_d.")
+      .quantity("resistance", &Resistance::resistance, dimension::resistance, at_least(0), "R")
+      .quantity("distal_pressure", &Resistance::distal_pressure, dimension::pressure, anything(), "P_d")
+      .by_default()
+      .plausible("-20 mmHg", "200 mmHg")
+      .shorthand("resistance");
+}
+
+Schema<Rcr> Rcr::schema() {
+  return Schema<Rcr>("rcr", "Three-element Windkessel: P = P_c + R_p Q, C dP_c/dt = Q - (P_c - P_d) / R_d.")
+      .quantity("proximal", &Rcr::proximal, dimension::resistance, at_least(0), "R_p")
+      .quantity("capacitance", &Rcr::capacitance, dimension::compliance, above(0), "C")
+      .plausible("1e-14 m^3/Pa", "1e-6 m^3/Pa")
+      .quantity("distal", &Rcr::distal, dimension::resistance, above(0), "R_d")
+      .plausible("1e5 Pa s/m^3", "1e13 Pa s/m^3")
+      .quantity("distal_pressure", &Rcr::distal_pressure, dimension::pressure, anything(), "P_d")
+      .by_default()
+      .plausible("-20 mmHg", "200 mmHg")
+      .quantity("initial_pressure", &Rcr::initial_pressure, dimension::pressure, anything(),
+                "P_c at the start, which is the outlet's pressure at no flow; P_d when left out")
+      .plausible("-20 mmHg", "300 mmHg");
+}
+
+Schema<Fixed> Fixed::schema() {
+  return Schema<Fixed>("fixed", "No displacement, in all or some directions.")
+      .any_of("directions", &Fixed::directions, {"x", "y", "z", "normal", "all"},
+              "Axes, or `normal` (mean normal of the face), or `all`")
+      .by_default()
+      .shorthand("directions")
+      .check([](const Fixed& fixed, Problems& problems) {
+        int listed = 0;
+        for (const bool direction : fixed.directions) listed += direction;
+        if (listed == 0)
+          problems.add("directions", "no direction is fixed", "list at least one, or use the condition `free`");
+        if (listed > 1 && (fixed.directions[all] || fixed.directions[normal]))
+          problems.add("directions", "`all` and `normal` cannot be mixed with other directions",
+                       "give `all`, `normal`, or some of x, y, z");
+      });
+}
+
+Schema<Free> Free::schema() { return Schema<Free>("free", "No traction on the face."); }
+
+Schema<Support> Support::schema() {
+  return Schema<Support>("support", "Elastic surrounding tissue: traction -k_s u - c_s du/dt - p_0 n.")
+      .quantity("stiffness", &Support::stiffness, dimension::stiffness_per_area, at_least(0), "k_s")
+      .quantity("damping", &Support::damping, dimension::damping_per_area, at_least(0), "c_s")
+      .by_default()
+      .quantity("pressure", &Support::pressure, dimension::pressure, anything(), "p_0 of the surroundings")
+      .by_default()
+      .plausible("-100 mmHg", "100 mmHg")
+      .choice("direction", &Support::direction, {{"full", Direction::full}, {"normal", Direction::normal}},
+              "Act on the whole displacement or on its normal part only")
+      .by_default();
+}
+
+Schema<Condition> condition_schema() {
+  return Schema<Condition>("condition", "What happens at a face of the mesh.")
+      .one_of()
+      .alternative(NoSlip::schema())
+      .alternative(Velocity::schema())
+      .alternative(Flow::schema())
+      .alternative(Pressure::schema())
+      .alternative(Traction::schema())
+      .alternative(Resistance::schema())
+      .alternative(Rcr::schema())
+      .alternative(Fixed::schema())
+      .alternative(Free::schema())
+      .alternative(Support::schema());
+}
+
+}  // namespace tunica::bc
