@@ -1,0 +1,90 @@
+#include "tunica/parallel/log.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+
+#include "tunica/base/error.hpp"
+#include "tunica/parallel/agree.hpp"
+
+namespace tunica::parallel {
+
+namespace {
+
+constexpr const char* erase_line = "\r\033[K";
+
+std::string time_stamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
+}
+
+}  // namespace
+
+bool is_terminal(std::FILE* stream) {
+  if (isatty(fileno(stream)) == 0) return false;
+  if (stream != stdout || std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return true;
+  // The parent is mpirun, or on another node its daemon, which writes to no terminal.
+  std::error_code unreadable;
+  const auto target = std::filesystem::read_symlink(fmt::format("/proc/{}/fd/1", getppid()), unreadable).string();
+  return !unreadable && (target.starts_with("/dev/pts/") || target.starts_with("/dev/tty"));
+}
+
+Log::Log(MPI_Comm comm, const Targets& targets) {
+  on_root(comm, [&] {
+    screen_ = targets.screen;
+    on_terminal_ = screen_ != nullptr && is_terminal(screen_);
+    if (targets.file.empty()) return;
+    file_ = std::fopen(targets.file.c_str(), "a");
+    if (file_ == nullptr)
+      throw InputError(targets.file.string(), fmt::format("the log file cannot be written ({})", std::strerror(errno)),
+                       "choose a folder that exists and is writable");
+  });
+  broadcast(comm, on_terminal_);
+}
+
+Log::~Log() {
+  status("");
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void Log::info(std::string_view text) { write("info", text); }
+void Log::warning(std::string_view text) { write("warning", text); }
+void Log::error(std::string_view text) { write("error", text); }
+
+void Log::write(std::string_view kind, std::string_view text) {
+  if (screen_ != nullptr) {
+    const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
+    const char* erase = status_.empty() ? "" : erase_line;
+    fmt::print(screen_, "{}{}{}\n{}", erase, prefix, text, status_);
+    std::fflush(screen_);
+  }
+  if (file_ != nullptr) {
+    fmt::print(file_, "{} {:7} {}\n", time_stamp(), kind, text);
+    std::fflush(file_);
+  }
+}
+
+void Log::status(std::string_view line) {
+  if (screen_ == nullptr || !on_terminal_ || (line.empty() && status_.empty())) return;
+  status_ = line;
+  fmt::print(screen_, "{}{}", erase_line, status_);
+  std::fflush(screen_);
+}
+
+int Log::columns() const {
+  winsize size{};
+  const bool known = screen_ != nullptr && ioctl(fileno(screen_), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+}  // namespace tunica::parallel

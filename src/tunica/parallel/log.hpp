@@ -1,0 +1,54 @@
+// Messages of a run, to the screen and to a log file, from rank 0.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tunica::parallel {
+
+/// Whether what is written to `stream` ends on a terminal. Under Open MPI's mpirun standard output is always a
+/// pseudo-terminal, so there the standard output of mpirun itself decides.
+bool is_terminal(std::FILE* stream);
+
+/// All ranks call alike and rank 0 speaks; a finding of another rank travels to rank 0 first. Lines reach the file at
+/// once, so that a run that dies leaves its log.
+class Log {
+ public:
+  struct Targets {
+    std::filesystem::path file = {};  ///< appended to, with the time of each line; empty: no file
+    std::FILE* screen = stdout;       ///< not owned; nullptr: no screen
+  };
+
+  /// Throws InputError on all ranks if the file cannot be written. Collective.
+  Log(MPI_Comm comm, const Targets& targets);
+  ~Log();
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  void info(std::string_view text);
+  void warning(std::string_view text);
+  void error(std::string_view text);
+
+  /// One line kept below all others on a terminal and replaced by the next call; empty removes it. Never in the file,
+  /// and nothing at all where the screen is no terminal.
+  void status(std::string_view line);
+
+  /// Same on all ranks.
+  bool on_terminal() const { return on_terminal_; }
+  /// Width of the terminal on rank 0, 80 if it does not tell.
+  int columns() const;
+
+ private:
+  void write(std::string_view kind, std::string_view text);
+
+  std::FILE* screen_ = nullptr;  // both null on ranks other than 0
+  std::FILE* file_ = nullptr;
+  bool on_terminal_ = false;
+  std::string status_;
+};
+
+}  // namespace tunica::parallel

@@ -1,0 +1,59 @@
+#include "tunica/parallel/signals.hpp"
+
+#include <time.h>
+
+#include <cassert>
+
+#include "tunica/parallel/agree.hpp"
+
+namespace tunica::parallel {
+
+namespace {
+
+constexpr int handled[3] = {SIGINT, SIGTERM, SIGUSR1};
+constexpr long long same_request = 500;  // ms
+
+// A handler reaches nothing but variables of static storage; these are the only ones of the program.
+volatile std::sig_atomic_t installed = 0;
+volatile std::sig_atomic_t requested = 0;
+timespec first_request;
+
+long long milliseconds_since(const timespec& earlier) {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (now.tv_sec - earlier.tv_sec) * 1000LL + (now.tv_nsec - earlier.tv_nsec) / 1000000;
+}
+
+extern "C" void request_stop(int signal) {
+  if (requested == 0) {
+    clock_gettime(CLOCK_MONOTONIC, &first_request);
+    requested = 1;
+  } else if (milliseconds_since(first_request) > same_request) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  assert(installed == 0 && "one at a time");
+  installed = 1;
+  requested = 0;
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = SA_RESTART;  // a stop request must not break a write halfway
+  sigemptyset(&action.sa_mask);
+  for (const int signal : handled) sigaddset(&action.sa_mask, signal);
+  for (int i = 0; i < 3; ++i) sigaction(handled[i], &action, &earlier_[i]);
+}
+
+StopSignals::~StopSignals() {
+  for (int i = 0; i < 3; ++i) sigaction(handled[i], &earlier_[i], nullptr);
+  installed = 0;
+  requested = 0;
+}
+
+bool stop_requested(MPI_Comm comm) { return any(comm, requested != 0); }
+
+}  // namespace tunica::parallel

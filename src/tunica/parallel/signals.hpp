@@ -1,0 +1,30 @@
+// Stopping a run in good order.
+#pragma once
+
+#include <mpi.h>
+
+#include <csignal>
+
+namespace tunica::parallel {
+
+/// While it lives, SIGINT, SIGTERM and SIGUSR1 ask the run to stop at the next place where it can be continued, and a
+/// second one ends the process at once. A signal within half a second after the first is taken for the same request,
+/// since launchers pass on what the terminal delivers as well. Earlier handlers return with its end. One at a time.
+///
+/// Open MPI's mpirun turns SIGINT and SIGTERM into SIGTERM and, one second later, SIGKILL. It passes SIGUSR1 on
+/// unchanged, and `mpirun --mca odls_base_sigkill_timeout <seconds>` gives longer for the others.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  struct sigaction earlier_[3];
+};
+
+/// Whether any rank was asked to stop since the StopSignals began; same answer on all ranks. Collective.
+bool stop_requested(MPI_Comm comm);
+
+}  // namespace tunica::parallel
