@@ -69,21 +69,38 @@ void audit(const Description& d, const std::string& path, std::vector<std::strin
   if (!d.shorthand.empty() && !keys.contains(d.shorthand)) slips.push_back(path + ": shorthand for an unknown key");
 }
 
-/// Reads the text as the value of one field, on an object of which nothing is kept.
+/// The same keys, with nothing stored anywhere.
+Description hollow(const Description& d);
+
+Field hollow(Field f) {
+  f.store = [](void*, const Value&) {};
+  f.open = [](void*, const std::string&) -> void* { return nullptr; };
+  if (f.nested) f.nested = std::make_shared<Description>(hollow(*f.nested));
+  return f;
+}
+
+Description hollow(const Description& d) {
+  Description h;
+  h.one_of = d.one_of;
+  h.shorthand = d.shorthand;
+  for (const Field& f : d.fields) h.fields.push_back(hollow(f));
+  for (const Include& i : d.includes)
+    h.includes.push_back({[](void*) -> void* { return nullptr; }, std::make_shared<Description>(hollow(*i.nested))});
+  return h;
+}
+
 void audit_defaults(const Description& d, const std::string& path, std::vector<std::string>& slips) {
   for (const Field& f : d.fields) {
     const std::string where = path + "." + f.key;
     if (f.default_text) {
       Description alone;
-      alone.fields.push_back(f);
-      alone.fields.back().store = [](void*, const Value&) {};
-      if (f.kind == Kind::section || f.kind == Kind::map || f.kind == Kind::list) continue;
+      alone.fields.push_back(hollow(f));
       alone.fields.back().default_text.reset();
       try {
         const auto warnings =
             parse(alone, nullptr, fmt::format("{}: {}", f.key, *f.default_text), {.check_files = false});
         if (!warnings.empty()) slips.push_back(where + ": the default is not plausible");
-      } catch (const InputError& error) {
+      } catch (const std::exception& error) {
         slips.push_back(fmt::format("{}: the default does not read: {}", where, error.what()));
       }
     }

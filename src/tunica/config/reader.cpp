@@ -33,7 +33,11 @@ const char* form_of(const YAML::Node& node) {
                            : "empty";
 }
 
-std::string join(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string join(const std::vector<std::string>& names, const char* separator = ", ") {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "" : separator).append(name);
+  return text;
+}
 
 class Reader {
  public:
@@ -170,8 +174,7 @@ class Reader {
     std::string example = "...";
     if (field.kind == Kind::quantity || field.kind == Kind::quantities)
       example = field.dimension == dimension::none ? "<number>" : fmt::format("<number> {}", si_unit(field.dimension));
-    if (field.kind == Kind::choice || field.kind == Kind::any_of)
-      example = fmt::format("{}", fmt::join(field.names, " | "));
+    if (field.kind == Kind::choice || field.kind == Kind::any_of) example = join(field.names, " | ");
     std::string what = fmt::format("`{}` is missing: {}", field.key, field.help);
     if (field.allowed.bounded()) what += fmt::format(" ({})", field.allowed.text(field.dimension));
     error(path, line, what, fmt::format("add `{}: {}`", field.key, example));
@@ -278,8 +281,8 @@ class Reader {
   void warn_implausible(const Field& field, const std::string& text, const std::string& path, int line) {
     const Range& usual = *field.plausible;
     const std::string meant = likely_meant(text, field.dimension, usual.low, usual.high);
-    const std::string in_unit =
-        field.dimension == dimension::none ? "" : fmt::format(" = {}", in_si(si_value(field, text), field.dimension));
+    const std::string si = in_si(si_value(field, text), field.dimension);
+    const std::string in_unit = si == text ? "" : " = " + si;
     warnings.push_back(
         {where(path, line),
          fmt::format("`{}`{} is unusual: {} to {} is expected", text, in_unit, in_si(usual.low, field.dimension),

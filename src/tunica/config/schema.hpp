@@ -363,6 +363,7 @@ class Schema {
         f.initial = value;
       else
         f.initial = value.string();
+      if (f.initial.empty()) f.initial = "\"\"";
     }
     return *this;
   }
