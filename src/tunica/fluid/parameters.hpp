@@ -12,6 +12,8 @@ struct Parameters {
   double c_m = 1.0;         ///< transient constant of tau_M, eq (2.2)
   double c_i = 36.0;        ///< viscous constant of tau_M, eq (2.2)
   double backflow = 0.2;  ///< beta: 0 no stabilisation, 1/2 cancels the kinetic energy that flows in through an outlet
+
+  static config::Schema<Parameters> schema();
 };
 
 }  // namespace tunica::fluid

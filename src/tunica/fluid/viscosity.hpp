@@ -11,6 +11,11 @@
 #include "tunica/base/dual.hpp"
 #include "tunica/base/pack.hpp"
 
+namespace tunica::config {
+template <class T>
+class Schema;
+}
+
 namespace tunica::fluid {
 
 /// mu = constant.
@@ -26,10 +31,12 @@ struct Newtonian {
   T slope(const T&) const {
     return T(0.0);
   }
+
+  static config::Schema<Newtonian> schema();
 };
 
-/// mu = mu_inf + (mu_0 - mu_inf) [1 + (lambda gamma)^a]^((n-1)/a). Constants of human blood: Cho & Kensey 1991 with the
-/// a of Gijsen et al. 1999; formulation section 2.
+/// mu = mu_inf + (mu_0 - mu_inf) [1 + (lambda gamma)^a]^((n-1)/a). Constants of human blood: Cho & Kensey 1991;
+/// section 2 of the theory.
 struct CarreauYasuda {
   static constexpr bool constant = false;
   double mu_infinity = 3.45e-3;  ///< at high shear rates [Pa s]
@@ -47,6 +54,8 @@ struct CarreauYasuda {
     const T x = pow(T(lambda) * gamma, a);
     return T((mu_zero - mu_infinity) * (n - 1.0)) * x * pow(T(1.0) + x, (n - 1.0 - a) / a) / gamma;
   }
+
+  static config::Schema<CarreauYasuda> schema();
 };
 
 /// sqrt(tau) = sqrt(tau_y) + sqrt(mu_inf gamma), so mu = [sqrt(mu_inf) + sqrt(tau_y / gamma)]^2 (Casson 1959; blood:
@@ -70,6 +79,8 @@ struct Casson {
     return -(T(std::sqrt(mu_infinity)) + y) * y * gamma / (g * g);
   }
 
+  static config::Schema<Casson> schema();
+
  private:
   template <class T>
   T regularised(const T& gamma) const {
@@ -79,5 +90,8 @@ struct Casson {
 
 /// All viscosity laws.
 using Viscosity = std::variant<Newtonian, CarreauYasuda, Casson>;
+
+/// Case-file section that holds one of the laws.
+config::Schema<Viscosity> viscosity_schema();
 
 }  // namespace tunica::fluid

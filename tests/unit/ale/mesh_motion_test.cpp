@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tunica/base/dual.hpp"
+#include "tunica/config/schema.hpp"
 
 namespace tunica::ale {
 namespace {
@@ -130,6 +131,14 @@ TEST(Quality, GuardNamesFlatInvertedAndLostElements) {
   const auto mask = is_degenerate(quality, parameters);
   EXPECT_FALSE(mask[0]);
   EXPECT_TRUE(mask[1]);
+}
+
+TEST(Schema, HasNoSlipsAndRefusesWhatMakesNoSense) {
+  EXPECT_TRUE(config::audit(*Parameters::schema().description()).empty());
+  const Parameters defaults = config::parse_text(Parameters::schema(), "{}").value;
+  EXPECT_EQ(defaults.poisson_ratio, 0.3);
+  EXPECT_EQ(defaults.stiffening_exponent, 1.0);
+  EXPECT_THROW(config::parse_text(Parameters::schema(), "poisson_ratio: 0.5\n"), InputError);
 }
 
 }  // namespace

@@ -229,9 +229,9 @@ TEST(Energy, NumericalDissipationIsThePowerOfTheUnresolvedTerms) {
 }
 
 TEST(Energy, StabilisationDissipatesAlongTheFlow) {
-  // A mesh that moves through nearly still fluid, so that a is large and v small (v. = 0). To second order in v and p the
-  // power of the stabilisation is then the integral of tau_M |r_M|^2 + tau_C (div v)^2. With the transposed order of the
-  // indices in v' (x) A it has neither that value nor, in general, that sign.
+  // A mesh that moves through nearly still fluid, so that a is large and v small (v. = 0). To second order in v and p
+  // the power of the stabilisation is then the integral of tau_M |r_M|^2 + tau_C (div v)^2. With the transposed order
+  // of the indices in v' (x) A it has neither that value nor, in general, that sign.
   const double small = 1e-6, rho = test::blood.density;
   for (unsigned seed = 0; seed < 10; ++seed) {
     test::RandomElement random(seed);
