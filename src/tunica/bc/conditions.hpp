@@ -1,4 +1,7 @@
 // All conditions that a face can have, as plain values in SI units. Exactly one per face.
+//
+// In the generalised-alpha step, prescribed velocities belong to t_{n+1}, where the unknowns are, and tractions and
+// pressures to t_{n+af}, where momentum is balanced.
 #pragma once
 
 #include <array>

@@ -135,6 +135,35 @@ void require_sound_triangles(const FaceMesh& face, const FaceShape& shape) {
   }
 }
 
+struct NodeWeights {
+  std::vector<double> load;  // of -Laplace(phi) = 1
+  std::vector<double> flow;  // sum over the node's triangles of n . a_T / 3: its part in the flow through the face
+  std::vector<bool> rim;     // velocity zero: rim, and nodes without a triangle
+};
+
+NodeWeights node_weights(const FaceMesh& face, const Vec3<double>& normal) {
+  const std::size_t n = face.points.size();
+  NodeWeights weights{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), rim_nodes(face)};
+  if (std::find(weights.rim.begin(), weights.rim.end(), true) == weights.rim.end())
+    throw InputError("face " + face.name, "it has no rim where the velocity can vanish",
+                     "prescribe a flow on an opening, not on a closed surface");
+  std::vector<bool> used(n, false);
+  for (const auto& t : face.triangles) {
+    const auto &a = face.points[t[0]], &b = face.points[t[1]], &c = face.points[t[2]];
+    const Vec3<double> area_vector = 0.5 * cross(b - a, c - a);
+    for (const auto node : t) {
+      used[node] = true;
+      weights.flow[node] += dot(area_vector, normal) / 3.0;
+      if (!weights.rim[node]) weights.load[node] += norm(area_vector) / 3.0;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) weights.rim[i] = weights.rim[i] || !used[i];
+  if (std::find(weights.rim.begin(), weights.rim.end(), false) == weights.rim.end())
+    throw InputError("face " + face.name, "all its nodes lie on the rim, so no flow can pass",
+                     "refine the mesh at this opening");
+  return weights;
+}
+
 }  // namespace
 
 InflowProfile inflow_profile(const FaceMesh& face, Profile profile) {
@@ -143,33 +172,13 @@ InflowProfile inflow_profile(const FaceMesh& face, Profile profile) {
   require_sound_triangles(face, result.shape);
   require_one_patch(face);
   result.normal = mean_normal(face.name, result.shape);
-  auto rim = rim_nodes(face);
-  if (std::find(rim.begin(), rim.end(), true) == rim.end())
-    throw InputError("face " + face.name, "it has no rim where the velocity can vanish",
-                     "prescribe a flow on an opening, not on a closed surface");
-  // Load of -Laplace(phi) = 1, and the weight of each node in the flow: sum over its triangles of n . a_T / 3.
-  std::vector<double> load(face.points.size(), 0.0), flux(face.points.size(), 0.0);
-  std::vector<bool> used(face.points.size(), false);
-  for (const auto& t : face.triangles) {
-    const auto &a = face.points[t[0]], &b = face.points[t[1]], &c = face.points[t[2]];
-    const Vec3<double> area_vector = 0.5 * cross(b - a, c - a);
-    for (const auto node : t) {
-      used[node] = true;
-      flux[node] += dot(area_vector, result.normal) / 3.0;
-      if (!rim[node]) load[node] += norm(area_vector) / 3.0;
-    }
-  }
-  for (std::size_t i = 0; i < rim.size(); ++i) rim[i] = rim[i] || !used[i];
-  if (std::find(rim.begin(), rim.end(), false) == rim.end())
-    throw InputError("face " + face.name, "all its nodes lie on the rim, so no flow can pass",
-                     "refine the mesh at this opening");
+  const NodeWeights weights = node_weights(face, result.normal);
   if (profile == Profile::parabolic) {
-    result.phi = solve(surface_laplacian(face, rim), load, face.name);
+    result.phi = solve(surface_laplacian(face, weights.rim), weights.load, face.name);
   } else {
-    result.phi.assign(rim.size(), 0.0);
-    for (std::size_t i = 0; i < rim.size(); ++i) result.phi[i] = rim[i] ? 0.0 : 1.0;
+    for (const bool rim : weights.rim) result.phi.push_back(rim ? 0.0 : 1.0);
   }
-  const double flow = inner(result.phi, flux);
+  const double flow = inner(result.phi, weights.flow);
   if (!(flow > 0.0))
     throw InputError("face " + face.name, "its triangles are folded so far that no flow passes along its mean normal",
                      "repair the face or cut the opening by a plane");

@@ -92,10 +92,11 @@ Schema<TableSource> table_schema(const config::Dimension& due) {
 using Source = std::variant<double, Step, TableSource>;
 
 Schema<Source> source_schema(const config::Dimension& due) {
-  return Schema<Source>("source", "Constant, step or table.")
-      .one_of()
-      .quantity("value", emplace<double>, due, anything(), "Constant value")
-      .section("step", emplace<Step>, step_schema(due), "Constant between two times, zero before and after")
+  Schema<Source> schema("source", "Constant, step or table.");
+  schema.one_of().quantity("value", emplace<double>, due, anything(), "Constant value");
+  if (due == dimension::pressure) schema.plausible("-400 mmHg", "400 mmHg");
+  if (due == dimension::volume_flow) schema.plausible("-60 L/min", "60 L/min");
+  return schema.section("step", emplace<Step>, step_schema(due), "Constant between two times, zero before and after")
       .section("table", emplace<TableSource>, table_schema(due), "Time course from a file");
 }
 
@@ -157,6 +158,7 @@ Schema<Pressure> Pressure::schema() {
 Schema<Resistance> Resistance::schema() {
   return Schema<Resistance>("resistance", "Outlet whose pressure grows with the flow: P = R Q + P_d.")
       .quantity("resistance", &Resistance::resistance, dimension::resistance, at_least(0), "R")
+      .plausible("1e5 Pa s/m^3", "1e13 Pa s/m^3")
       .quantity("distal_pressure", &Resistance::distal_pressure, dimension::pressure, anything(), "P_d")
       .by_default()
       .plausible("-20 mmHg", "200 mmHg")
@@ -200,6 +202,7 @@ Schema<Free> Free::schema() { return Schema<Free>("free", "No traction on the fa
 Schema<Support> Support::schema() {
   return Schema<Support>("support", "Elastic surrounding tissue: traction -k_s u - c_s du/dt - p_0 n.")
       .quantity("stiffness", &Support::stiffness, dimension::stiffness_per_area, at_least(0), "k_s")
+      .plausible("1e3 N/m^3", "1e12 N/m^3")
       .quantity("damping", &Support::damping, dimension::damping_per_area, at_least(0), "c_s")
       .by_default()
       .quantity("pressure", &Support::pressure, dimension::pressure, anything(), "p_0 of the surroundings")
