@@ -33,6 +33,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -58,6 +59,9 @@ void check(const PictureOptions& options) {
   if (options.inputs.empty()) problems.push_back({"picture", "no input files", "name at least one file to draw"});
   if (!options.output.ends_with(".png"))
     problems.push_back({options.output, "pictures are written as PNG", "let the name end in .png"});
+  const auto folder = std::filesystem::absolute(options.output).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    problems.push_back({options.output, "the folder does not exist", "make it first: mkdir -p " + folder.string()});
   if (std::min(options.width, options.height) < 64 || std::max(options.width, options.height) > 16384)
     problems.push_back({"picture size", fmt::format("{} x {}, allowed 64 to 16384", options.width, options.height),
                         "choose a size in that range"});
@@ -341,7 +345,7 @@ void write_picture(vtkRenderWindow& window, const std::string& file) {
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
   if (writer->GetErrorCode() != 0)
-    throw InputError(file, "cannot be written", "check that the folder exists and is writable");
+    throw InputError(file, "cannot be written", "check that the folder is writable and the disk not full");
 }
 
 }  // namespace

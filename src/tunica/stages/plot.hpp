@@ -1,0 +1,37 @@
+// Line plots as SVG text: histories of a run, curves of a verification.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tunica::stages {
+
+/// One curve. Points that are not finite (or not positive on a logarithmic axis) interrupt it.
+struct Series {
+  std::string name;  ///< in the legend; empty: not listed
+  std::vector<double> x, y;
+  bool line = true;
+  bool markers = false;
+  bool dashed = false;
+};
+
+struct PlotOptions {
+  std::string title;
+  std::string x_label, y_label;  ///< with the unit, as in "flow [ml/s]"
+  bool log_x = false, log_y = false;
+  int width = 720, height = 440;  ///< pixels
+};
+
+/// The plot as an SVG document. Axes span all finite points, widened to round numbers in y. Throws InputError if a
+/// series has x and y of different length or there is no point to draw.
+std::string draw_plot(const std::vector<Series>& series, const PlotOptions& options);
+
+/// Writes `draw_plot` to a file. Throws InputError if it cannot be written.
+void write_plot(const std::string& file, const std::vector<Series>& series, const PlotOptions& options);
+
+/// Positions of labels on an axis within [low, high]: three to nine multiples of 1, 2 or 5 times a power of ten; on a
+/// logarithmic axis powers of ten, with round numbers between them if those are few. Needs low < high, and low > 0 if
+/// logarithmic.
+std::vector<double> axis_ticks(double low, double high, bool logarithmic);
+
+}  // namespace tunica::stages

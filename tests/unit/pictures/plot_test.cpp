@@ -1,0 +1,81 @@
+#include "tunica/stages/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tunica/base/error.hpp"
+
+namespace tunica::stages {
+namespace {
+
+int count(const std::string& text, const std::string& part) {
+  int n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(AxisTicks, AreRoundAndWithinTheAxis) {
+  EXPECT_EQ(axis_ticks(0.0, 1.0, false), (std::vector<double>{0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0}));
+  for (const double scale : {1e-9, 0.03, 7.0, 1e12}) {
+    const auto ticks = axis_ticks(-scale, 0.73 * scale, false);
+    EXPECT_GE(ticks.size(), 3U);
+    EXPECT_LE(ticks.size(), 9U);
+    EXPECT_GE(ticks.front(), -scale * (1 + 1e-9));
+    EXPECT_LE(ticks.back(), 0.73 * scale);
+    EXPECT_NE(std::find(ticks.begin(), ticks.end(), 0.0), ticks.end());
+  }
+}
+
+TEST(AxisTicks, ArePowersOfTenOnLongLogarithmicAxes) {
+  const auto ticks = axis_ticks(2e-5, 3.0, true);
+  ASSERT_EQ(ticks.size(), 5U);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(ticks[static_cast<std::size_t>(i)] / std::pow(10.0, i - 4), 1.0, 1e-12);
+}
+
+TEST(AxisTicks, AreAtLeastThreeOnShortLogarithmicAxes) {
+  for (const double ratio : {1.05, 1.5, 4.0, 12.0, 90.0}) EXPECT_GE(axis_ticks(0.4, 0.4 * ratio, true).size(), 3U);
+}
+
+TEST(Plot, PutsPointsWhereTheAxesSay) {
+  PlotOptions options;
+  options.width = 200 + 98;   // 200 pixels between the side margins of 78 and 20
+  options.height = 100 + 96;  // 100 pixels between the margins of 40 above and 56 below
+  const auto svg = draw_plot({{"", {0.0, 1.0, 2.0}, {0.0, 8.0, 2.0}}}, options);
+  EXPECT_NE(svg.find("M78.00 140.00L178.00 40.00L278.00 115.00"), std::string::npos) << svg;
+}
+
+TEST(Plot, InterruptsTheLineAtValuesThatCannotBeDrawn) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Series series{"a", {1.0, 2.0, 3.0, 4.0, 5.0}, {1.0, 2.0, nan, 3.0, 4.0}};
+  series.markers = true;
+  PlotOptions options;
+  const auto linear = draw_plot({series}, options);
+  const auto start = linear.find("<path d=\"") + 9;
+  EXPECT_EQ(count(linear.substr(start, linear.find('"', start) - start), "M"), 2);
+  EXPECT_EQ(count(linear, "<circle"), 4 + 1);  // and one in the legend
+  options.log_y = true;
+  series.y[0] = -1.0;
+  EXPECT_EQ(count(draw_plot({series}, options), "<circle"), 3 + 1);
+}
+
+TEST(Plot, EscapesMarkupAndKeepsConstantSeriesInSight) {
+  const auto svg = draw_plot({{"p < q & r", {0.0, 1.0}, {5.0, 5.0}}}, {});
+  EXPECT_NE(svg.find("p &lt; q &amp; r"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Plot, RefusesWhatCannotBeDrawn) {
+  EXPECT_THROW(draw_plot({}, {}), InputError);
+  EXPECT_THROW(draw_plot({{"a", {1.0, 2.0}, {1.0}}}, {}), InputError);
+  PlotOptions options;
+  options.log_x = true;
+  EXPECT_THROW(draw_plot({{"a", {0.0, -2.0}, {1.0, 1.0}}}, options), InputError);
+  EXPECT_THROW(write_plot("no/such/folder/plot.svg", {{"a", {1.0}, {1.0}}}, {}), InputError);
+}
+
+}  // namespace
+}  // namespace tunica::stages
