@@ -1,0 +1,29 @@
+// Small-strain constants of a law, as the case file gives them: one of Young's and shear modulus, one of Poisson's
+// ratio and bulk modulus.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "tunica/config/schema.hpp"
+
+namespace tunica::wall {
+
+struct ElasticConstants {
+  std::optional<double> young_modulus = {};  ///< E [Pa]
+  std::optional<double> shear_modulus = {};  ///< mu [Pa]
+  std::optional<double> poisson_ratio = {};  ///< nu, 0.5 is incompressible
+  std::optional<double> bulk_modulus = {};   ///< K [Pa]
+
+  /// mu [Pa]. The constants must have passed check().
+  double shear() const;
+  /// K [Pa], infinite for nu = 0.5. The constants must have passed check().
+  double bulk() const;
+
+  /// Adds what is missing, given twice, or impossible.
+  void check(config::Problems& problems) const;
+
+  static config::Schema<ElasticConstants> schema();
+};
+
+}  // namespace tunica::wall
