@@ -46,7 +46,7 @@ function(tunica_folder name)
         set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
       elseif(source MATCHES "_avx512\\.cpp$")
         set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
-          "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-mprefer-vector-width=512")
+          "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-mprefer-vector-width=512;-Wno-uninitialized;-Wno-maybe-uninitialized")  # g++ 12 warns of its own header
       endif()
     endforeach()
     add_library(tunica_${name} STATIC ${sources})

@@ -23,6 +23,9 @@ struct BlockKernels {
   /// y = A x for 4 x 4 single-precision blocks, x and y double.
   void (*multiply)(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
                    const double* x, double* y);
+  /// The same for 3 x 3 blocks with padded columns (12 floats); x and y keep stride 4, the fourth entry of y is 0.
+  void (*multiply3)(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
+                    const double* x, double* y);
   /// x = (L D U)^-1 x, x: [row][4] single precision, the fourth entry unused.
   void (*ilu_solve)(const IluFactors& factors, float* x);
   /// Computes the factors in place; `position` is scratch of `rows` integers, all -1 on entry and exit.

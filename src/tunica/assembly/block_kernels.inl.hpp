@@ -36,6 +36,23 @@ void multiply(std::int32_t rows, const std::int32_t* row_begin, const std::int32
   }
 }
 
+template <int W>
+void multiply3(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
+               const double* x, double* y) {
+  for (std::int32_t row = 0; row < rows; ++row) {
+    Double4 s0{}, s1{}, s2{};
+    for (std::int32_t b = row_begin[row]; b < row_begin[row + 1]; ++b) {
+      const float* a = blocks + 12 * static_cast<std::ptrdiff_t>(b);
+      const double* v = x + 4 * static_cast<std::ptrdiff_t>(columns[b]);
+      s0 += __builtin_convertvector(load4(a), Double4) * v[0];
+      s1 += __builtin_convertvector(load4(a + 4), Double4) * v[1];
+      s2 += __builtin_convertvector(load4(a + 8), Double4) * v[2];
+    }
+    const Double4 s = (s0 + s1) + s2;
+    __builtin_memcpy(y + 4 * static_cast<std::ptrdiff_t>(row), &s, sizeof s);
+  }
+}
+
 // c -= a b for 3 x 3 blocks in padded columns.
 TUNICA_INLINE void subtract_product(float* c, const float* a, const float* b) {
   const Float4 a0 = load4(a), a1 = load4(a + 4), a2 = load4(a + 8);
@@ -116,7 +133,7 @@ std::int32_t ilu_factorise(const IluFactors& f, std::int32_t* position) {
 
 template <int W>
 BlockKernels make_block_kernels() {
-  return {&multiply<W>, &ilu_solve<W>, &ilu_factorise<W>};
+  return {&multiply<W>, &multiply3<W>, &ilu_solve<W>, &ilu_factorise<W>};
 }
 
 }  // namespace tunica::assembly

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 namespace tunica::assembly {
 
@@ -18,39 +19,32 @@ int coupled_nodes(const mesh::DistributedMesh& mesh, const std::array<std::int32
 }
 
 template <class Visit>
-void for_each_pair(const mesh::DistributedMesh& mesh, Visit visit) {
+void for_each_pair(const mesh::DistributedMesh& mesh, std::optional<mesh::RegionKind> kind, Visit visit) {
   std::array<std::int32_t, 8> nodes;
-  for (const auto& region : mesh.regions)
+  for (const auto& region : mesh.regions) {
+    if (kind && region.kind != *kind) continue;
     for (const auto& element : region.elements) {
       const int n = coupled_nodes(mesh, element, nodes);
       for (int a = 0; a < n; ++a)
         if (nodes[a] < mesh.owned_nodes)
           for (int b = 0; b < n; ++b) visit(nodes[a], nodes[b]);
     }
+  }
 }
 
-}  // namespace
 
-std::int32_t BlockPattern::slot(std::int32_t row, std::int32_t column) const {
-  if (row >= rows) return blocks();
-  const auto first = columns.begin() + row_begin[row], last = columns.begin() + row_begin[row + 1];
-  const auto it = std::lower_bound(first, last, column);
-  assert(it != last && *it == column);
-  return static_cast<std::int32_t>(it - columns.begin());
-}
-
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh) {
+BlockPattern build(const mesh::DistributedMesh& mesh, std::optional<mesh::RegionKind> kind) {
   BlockPattern pattern;
   pattern.rows = mesh.owned_nodes;
   pattern.columns_count = mesh.nodes();
   // Count with repetitions, fill, then make each row unique in place.
   std::vector<std::size_t> begin(pattern.rows + 1, 0);
-  for_each_pair(mesh, [&](std::int32_t row, std::int32_t) { ++begin[row + 1]; });
+  for_each_pair(mesh, kind, [&](std::int32_t row, std::int32_t) { ++begin[row + 1]; });
   for (std::int32_t i = 0; i < pattern.rows; ++i) begin[i + 1] += begin[i] + 1;  // + 1: the diagonal is always there
   std::vector<std::int32_t> repeated(begin.back());
   std::vector<std::size_t> fill(begin.begin(), begin.end() - 1);
   for (std::int32_t i = 0; i < pattern.rows; ++i) repeated[fill[i]++] = i;
-  for_each_pair(mesh, [&](std::int32_t row, std::int32_t column) { repeated[fill[row]++] = column; });
+  for_each_pair(mesh, kind, [&](std::int32_t row, std::int32_t column) { repeated[fill[row]++] = column; });
 
   pattern.row_begin.assign(pattern.rows + 1, 0);
   pattern.diagonal.resize(pattern.rows);
@@ -65,5 +59,19 @@ BlockPattern make_pattern(const mesh::DistributedMesh& mesh) {
   }
   return pattern;
 }
+
+}  // namespace
+
+std::int32_t BlockPattern::slot(std::int32_t row, std::int32_t column) const {
+  if (row >= rows) return blocks();
+  const auto first = columns.begin() + row_begin[row], last = columns.begin() + row_begin[row + 1];
+  const auto it = std::lower_bound(first, last, column);
+  assert(it != last && *it == column);
+  return static_cast<std::int32_t>(it - columns.begin());
+}
+
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh) { return build(mesh, std::nullopt); }
+
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind) { return build(mesh, kind); }
 
 }  // namespace tunica::assembly

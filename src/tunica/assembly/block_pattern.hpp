@@ -24,6 +24,10 @@ struct BlockPattern {
   std::int32_t slot(std::int32_t row, std::int32_t column) const;
 };
 
+/// Pattern of all regions.
 BlockPattern make_pattern(const mesh::DistributedMesh& mesh);
+
+/// Pattern of the regions of one kind; nodes of other regions have their diagonal block only.
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind);
 
 }  // namespace tunica::assembly

@@ -1,20 +1,11 @@
 #include "tunica/assembly/linear_solver.hpp"
 
-#include <petscksp.h>
-
+#include <algorithm>
 #include <cmath>
 
 #include "tunica/base/error.hpp"
 
 namespace tunica::assembly {
-
-using parallel::check;
-
-struct LinearSolver::Implementation {
-  parallel::MatHandle operator_;
-  parallel::KspHandle ksp;
-  parallel::VecHandle rhs, solution;
-};
 
 namespace {
 
@@ -73,59 +64,13 @@ std::vector<double> dense_inverse(std::vector<double> a, std::size_t n) {
 LinearSolver::LinearSolver(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa,
                            KrylovSettings settings)
     : mesh_(mesh),
-      pattern_(pattern),
       isa_(isa),
       preconditioner_(mesh, pattern, isa),
       halo_(4 * static_cast<std::size_t>(pattern.columns_count)),
       work_(4 * static_cast<std::size_t>(pattern.rows)),
-      petsc_(std::make_unique<Implementation>()) {
-  const PetscInt n = 4 * pattern.rows;
-  const auto multiply_callback = [](Mat a, Vec x, Vec y) -> PetscErrorCode {
-    PetscFunctionBeginUser;
-    LinearSolver* self = nullptr;
-    PetscCall(MatShellGetContext(a, &self));
-    const double* in = nullptr;
-    double* out = nullptr;
-    PetscCall(VecGetArrayRead(x, &in));
-    PetscCall(VecGetArrayWrite(y, &out));
-    self->multiply(in, out);
-    PetscCall(VecRestoreArrayWrite(y, &out));
-    PetscCall(VecRestoreArrayRead(x, &in));
-    PetscFunctionReturn(0);
-  };
-  const auto precondition_callback = [](PC pc, Vec r, Vec z) -> PetscErrorCode {
-    PetscFunctionBeginUser;
-    LinearSolver* self = nullptr;
-    PetscCall(PCShellGetContext(pc, &self));
-    const double* in = nullptr;
-    double* out = nullptr;
-    PetscCall(VecGetArrayRead(r, &in));
-    PetscCall(VecGetArrayWrite(z, &out));
-    self->precondition(in, out);
-    PetscCall(VecRestoreArrayWrite(z, &out));
-    PetscCall(VecRestoreArrayRead(r, &in));
-    PetscFunctionReturn(0);
-  };
-  check(VecCreateMPI(mesh.comm, n, PETSC_DETERMINE, petsc_->rhs.out()));
-  check(VecDuplicate(petsc_->rhs.get(), petsc_->solution.out()));
-  check(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, petsc_->operator_.out()));
-  check(MatShellSetOperation(petsc_->operator_.get(), MATOP_MULT,
-                             reinterpret_cast<void (*)()>(+multiply_callback)));
-  check(KSPCreate(mesh.comm, petsc_->ksp.out()));
-  KSP ksp = petsc_->ksp.get();
-  check(KSPSetType(ksp, KSPGMRES));
-  check(KSPGMRESSetRestart(ksp, settings.restart));
-  check(KSPSetPCSide(ksp, PC_RIGHT));
-  check(KSPSetOperators(ksp, petsc_->operator_.get(), petsc_->operator_.get()));
-  check(KSPSetTolerances(ksp, settings.tolerance, 0.0, 1e10, settings.max_iterations));
-  PC pc = nullptr;
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCSHELL));
-  check(PCShellSetContext(pc, this));
-  check(PCShellSetApply(pc, +precondition_callback));
-}
-
-LinearSolver::~LinearSolver() = default;
+      krylov_(
+          mesh.comm, 4 * pattern.rows, settings, [this](const double* x, double* y) { multiply(x, y); },
+          [this](const double* r, double* z) { precondition(r, z); }) {}
 
 void LinearSolver::update_preconditioner(const BlockMatrix& matrix, const std::vector<RankOne>& outlets) {
   preconditioner_.update(matrix);
@@ -181,30 +126,10 @@ LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<Ra
   matrix_ = &matrix;
   outlets_ = &outlets;
   const auto& d = preconditioner_.scale();
-  double* b = nullptr;
-  check(VecGetArrayWrite(petsc_->rhs.get(), &b));
-  for (std::size_t i = 0; i < work_.size(); ++i) b[i] = rhs[i] / d[i];
-  check(VecRestoreArrayWrite(petsc_->rhs.get(), &b));
-  double b_norm = 0;
-  check(VecNorm(petsc_->rhs.get(), NORM_2, &b_norm));
-  std::fill(x.begin(), x.end(), 0.0);
-  if (!std::isfinite(b_norm)) return {0, b_norm, false};
-  if (b_norm == 0.0) return {0, 0.0, true};
-  check(KSPSolve(petsc_->ksp.get(), petsc_->rhs.get(), petsc_->solution.get()));
-
-  LinearResult result;
-  PetscInt iterations = 0;
-  KSPConvergedReason reason;
-  check(KSPGetIterationNumber(petsc_->ksp.get(), &iterations));
-  check(KSPGetResidualNorm(petsc_->ksp.get(), &result.residual));
-  check(KSPGetConvergedReason(petsc_->ksp.get(), &reason));
-  result.iterations = static_cast<int>(iterations);
-  result.residual /= b_norm;
-  result.converged = reason > 0;
-  const double* solution = nullptr;
-  check(VecGetArrayRead(petsc_->solution.get(), &solution));
-  for (std::size_t i = 0; i < work_.size(); ++i) x[i] = solution[i] / d[i];
-  check(VecRestoreArrayRead(petsc_->solution.get(), &solution));
+  std::vector<double> b(work_.size());
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] = rhs[i] / d[i];
+  const LinearResult result = krylov_.solve(b, x.first(b.size()));
+  for (std::size_t i = 0; i < b.size(); ++i) x[i] /= d[i];
   mesh_.halo.update(x, 4);
   return result;
 }

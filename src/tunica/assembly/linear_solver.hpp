@@ -5,22 +5,11 @@
 #include <vector>
 
 #include "tunica/assembly/block_matrix.hpp"
+#include "tunica/assembly/krylov.hpp"
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/assembly/schur_preconditioner.hpp"
 
 namespace tunica::assembly {
-
-struct KrylovSettings {
-  double tolerance = 1e-4;   ///< of the residual norm, relative to the right-hand side
-  int max_iterations = 500;
-  int restart = 200;
-};
-
-struct LinearResult {
-  int iterations = 0;
-  double residual = 0;  ///< relative, in the scaled norm
-  bool converged = false;
-};
 
 /// Solves (A + sum c_k s_k s_k^T) x = b. Right-preconditioned, so the residual that is tested is the true one, in a norm
 /// where every equation is divided by the square root of its diagonal entry: momentum and continuity, fluid and wall
@@ -31,7 +20,6 @@ struct LinearResult {
 class LinearSolver {
  public:
   LinearSolver(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa, KrylovSettings settings);
-  ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
@@ -46,12 +34,10 @@ class LinearSolver {
   double norm(std::span<const double> residual) const;
 
  private:
-  struct Implementation;
   void multiply(const double* x, double* y);
   void precondition(const double* r, double* z);
 
   const mesh::DistributedMesh& mesh_;
-  const BlockPattern& pattern_;
   Isa isa_;
   SchurPreconditioner preconditioner_;
   const BlockMatrix* matrix_ = nullptr;
@@ -61,7 +47,7 @@ class LinearSolver {
   std::vector<RankOne> preconditioned_outlets_;
   std::vector<double> capacitance_inverse_;          ///< (diag(1/c) + s^T M^-1 s)^-1, row-major
   std::vector<double> halo_, work_;
-  std::unique_ptr<Implementation> petsc_;
+  Krylov krylov_;
 };
 
 }  // namespace tunica::assembly

@@ -1,0 +1,39 @@
+// Elements in groups of as many as a pack has lanes, with everything a loop over them needs laid out in its order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tunica/assembly/block_pattern.hpp"
+#include "tunica/mesh/distributed_mesh.hpp"
+
+namespace tunica::assembly {
+
+/// Batches of tetrahedra. The last batch repeats an element in its spare lanes; `lanes_used` tells how many count.
+///
+/// Where no node of an element has a host of its own (all of the lumen, most of the wall), one slot per node pair takes
+/// the 4 x 4 block. Elements of the wall along the lumen are `split`: the motion belongs to the host's row and column,
+/// the pressure to the node's own, so a block is spread over four slots (motion-motion, motion-pressure,
+/// pressure-motion, pressure-pressure).
+struct ElementBatches {
+  int width = 1;
+  bool split = false;
+  std::int32_t elements = 0;
+  std::vector<std::int32_t> nodes;     ///< [batch][4][width]
+  std::vector<std::int32_t> hosts;     ///< [batch][4][width], split only
+  std::vector<std::int32_t> slots;     ///< [batch][1 or 4][16][width]
+  std::vector<std::int32_t> elements_of_region;  ///< [element]: its position in Region::elements
+
+  std::int32_t batches() const { return (elements + width - 1) / width; }
+  int lanes_used(std::int32_t batch) const {
+    const std::int32_t left = elements - batch * width;
+    return left < width ? left : width;
+  }
+};
+
+/// Batches of the elements of `region` that are (`split`) or are not next to a host, in the order of the region.
+ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region, const BlockPattern& pattern,
+                            int width, bool split);
+
+}  // namespace tunica::assembly

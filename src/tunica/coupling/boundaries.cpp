@@ -1,0 +1,371 @@
+#include "tunica/coupling/boundaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "tunica/base/error.hpp"
+#include "tunica/coupling/whole_face.hpp"
+#include "tunica/fluid/boundary.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/wall/surface.hpp"
+
+namespace tunica::coupling {
+
+using assembly::NodeConstraint;
+
+namespace {
+
+std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
+
+Vec3<double> vector_at(const double* field, std::int32_t node) {
+  const double* v = field + at(node);
+  return {{v[0], v[1], v[2]}};
+}
+
+void corners(const double* field, const std::array<std::int32_t, 3>& triangle, Vec3<double> (&out)[3]) {
+  for (int a = 0; a < 3; ++a) out[a] = vector_at(field, triangle[a]);
+}
+
+Vec3<double> mean_normal(const mesh::DistributedMesh& mesh, const mesh::Face& face) {
+  double sum[3] = {};
+  for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
+    const auto& n = face.triangles[t];
+    const Vec3<double> x[3] = {mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]};
+    const Vec3<double> area = fluid::area_vector(x);
+    for (int i = 0; i < 3; ++i) sum[i] += area[i];
+  }
+  parallel::global_sum(mesh.comm, sum);
+  const Vec3<double> total{{sum[0], sum[1], sum[2]}};
+  const double size = norm(total);
+  return size > 0 ? (1.0 / size) * total : total;
+}
+
+// Directions in which a node is held; the free motions are what is orthogonal to them.
+struct Held {
+  Mat3<double> P = identity<double>();
+  bool pressure = false;
+
+  void all() { P = Mat3<double>{}; }
+  void direction(const Vec3<double>& n) {
+    Vec3<double> d = P * n;  // what the earlier directions leave of it
+    const double size = norm(d);
+    if (size < 1e-6) return;
+    d = (1.0 / size) * d;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) -= d[i] * d[j];
+  }
+  bool any() const { return pressure || std::abs(trace(P) - 3.0) > 1e-12; }
+};
+
+// Ghosts on a face may lie outside every face triangle that this rank sees, so they ask their owners.
+std::vector<NodeConstraint> complete_on_ghosts(const mesh::DistributedMesh& mesh, const std::vector<Held>& held) {
+  std::vector<double> values(10 * static_cast<std::size_t>(mesh.nodes()));
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
+    double* v = values.data() + 10 * static_cast<std::size_t>(i);
+    for (int k = 0; k < 9; ++k) v[k] = held[i].P(k / 3, k % 3);
+    v[9] = held[i].pressure ? 1.0 : 0.0;
+  }
+  mesh.halo.update(values, 10);
+  std::vector<NodeConstraint> list;
+  for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
+    const double* v = values.data() + 10 * static_cast<std::size_t>(i);
+    Held h;
+    for (int k = 0; k < 9; ++k) h.P(k / 3, k % 3) = v[k];
+    h.pressure = v[9] > 0.5;
+    if (h.any()) list.push_back({i, h.P, h.pressure});
+  }
+  return list;
+}
+
+template <class Kernel>
+void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& matrix, std::int32_t row,
+               std::int32_t column, const Kernel& entry) {
+  float* block = matrix.blocks[pattern.slot(row, column)].a;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) block[4 * j + i] += static_cast<float>(entry(i, j));
+}
+
+}  // namespace
+
+// Collects what the conditions ask of nodes, face by face.
+struct Boundaries::Builder {
+  Boundaries& b;
+  const mesh::DistributedMesh& mesh;
+  std::vector<Held> held, mesh_held;
+  std::vector<char> interface_node;
+
+  explicit Builder(Boundaries& boundaries)
+      : b(boundaries), mesh(b.mesh_), held(mesh.nodes()), mesh_held(mesh.nodes()), interface_node(mesh.nodes(), 0) {
+    for (std::int32_t i = 0; i < mesh.nodes(); ++i)
+      if (mesh.host[i] != i) {
+        held[i].all();  // the host moves for it
+        interface_node[mesh.host[i]] = 1;
+        mesh_held[mesh.host[i]].all();
+      }
+  }
+
+  bc::Waveform waveform(const bc::WaveformInput& input) const {
+    return parallel::agree(mesh.comm, [&] { return bc::make_waveform(input); });
+  }
+
+  template <class Visit>
+  void for_each_node(const mesh::Face& face, Visit visit) const {
+    for (const auto& triangle : face.triangles)
+      for (const auto node : triangle) visit(node);
+  }
+
+  // In FSI the rim of an opening belongs to the wall; nodes that no_slip holds stay at rest.
+  void prescribe(const mesh::Face& face, const bc::Waveform& course,
+                 const std::function<Vec3<double>(std::int32_t)>& velocity) {
+    const std::size_t waveform = b.waveforms_.size();
+    b.waveforms_.push_back(course);
+    std::vector<char> done(mesh.nodes(), 0);
+    for_each_node(face, [&](std::int32_t node) {
+      if (interface_node[node] || done[node]) return;
+      done[node] = 1;
+      held[node].all();
+      if (node < mesh.owned_nodes) b.prescribed_.push_back({node, velocity(node), waveform});
+    });
+  }
+
+  void operator()(std::size_t index, const bc::NoSlip&) {
+    for_each_node(mesh.faces[index], [&](std::int32_t node) { held[node].all(); });
+  }
+  void operator()(std::size_t index, const bc::Velocity& c) {
+    prescribe(mesh.faces[index], waveform(c.course), [&](std::int32_t) { return c.value; });
+  }
+  void operator()(std::size_t index, const bc::Flow& c) {
+    const WholeFace whole = gather_face(mesh, mesh.faces[index]);
+    const auto profile = parallel::agree(mesh.comm, [&] { return bc::inflow_profile(whole.mesh(), c.profile); });
+    const auto flow = parallel::agree(mesh.comm, [&] { return bc::inflow(c); });
+    prescribe(mesh.faces[index], flow, [&](std::int32_t node) {
+      return profile.velocity(static_cast<std::size_t>(whole.find(mesh.global_ids[node])), 1.0);
+    });
+  }
+  void operator()(std::size_t index, const bc::Pressure& c) {
+    Load load{.face = index, .kind = Load::Kind::lumen_pressure};
+    if (is_wall(index)) load.kind = c.follower ? Load::Kind::follower_pressure : Load::Kind::dead_pressure;
+    load.course = waveform(c.pressure);
+    b.loads_.push_back(load);
+  }
+  void operator()(std::size_t index, const bc::Traction& c) {
+    Load load{.face = index, .kind = is_wall(index) ? Load::Kind::dead_traction : Load::Kind::lumen_traction};
+    load.vector = c.vector;
+    load.course = waveform(c.course);
+    b.loads_.push_back(load);
+  }
+  void operator()(std::size_t index, const bc::Resistance& c) { b.outlets_.push_back({index, c}); }
+  void operator()(std::size_t index, const bc::Rcr& c) { b.outlets_.push_back({index, c}); }
+  void operator()(std::size_t index, const bc::Fixed& c) {
+    const auto& face = mesh.faces[index];
+    const Vec3<double> normal = mean_normal(mesh, face);
+    for_each_node(face, [&](std::int32_t wall_node) {
+      Held& h = held[mesh.host[wall_node]];
+      if (c.along_normal()) {
+        h.direction(normal);
+        return;
+      }
+      for (int i = 0; i < 3; ++i)
+        if (c.axes()[i]) h.direction({{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
+    });
+  }
+  void operator()(std::size_t, const bc::Free&) {}
+  void operator()(std::size_t index, const bc::Support& c) {
+    Load load{.face = index, .kind = Load::Kind::support};
+    load.support = c;
+    b.loads_.push_back(load);
+  }
+
+  bool is_wall(std::size_t index) const {
+    return mesh.regions[mesh.faces[index].region].kind == mesh::RegionKind::wall;
+  }
+};
+
+Boundaries::Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockPattern& pattern,
+                       const BoundaryInput& input)
+    : mesh_(mesh), pattern_(pattern), fluid_(input.fluid) {
+  Builder builder(*this);
+  std::map<std::string, std::size_t> index_of;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) index_of[mesh.faces[f].name] = f;
+  const auto apply = [&](bool no_slip) {
+    for (const auto& [name, condition] : input.conditions)
+      if (std::holds_alternative<bc::NoSlip>(condition) == no_slip) {
+        mesh.face(name);  // throws where there is no such face
+        std::visit([&, index = index_of[name]](const auto& c) { builder(index, c); }, condition);
+      }
+  };
+  apply(false);
+  apply(true);
+  // no_slip wins on shared nodes.
+  std::vector<char> still(mesh.nodes(), 0);
+  for (const auto& [name, condition] : input.conditions)
+    if (std::holds_alternative<bc::NoSlip>(condition))
+      builder.for_each_node(mesh.face(name), [&](std::int32_t node) { still[node] = 1; });
+  std::erase_if(prescribed_, [&](const PrescribedNode& p) { return still[p.node] != 0; });
+
+  // Wall nodes of the displacement element, and wall-only parts of the mesh without fluid, have no pressure unknown.
+  std::vector<char> has_pressure(mesh.nodes(), 0);
+  for (const auto& region : mesh.regions)
+    if (region.kind == mesh::RegionKind::lumen || input.wall_has_pressure)
+      for (const auto& element : region.elements)
+        for (const auto node : element) has_pressure[node] = 1;
+  for (std::int32_t i = 0; i < mesh.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
+
+  for (const auto& face : mesh.faces) {
+    if (mesh.regions[face.region].kind != mesh::RegionKind::lumen) continue;
+    const bool coupled = std::any_of(input.interfaces.begin(), input.interfaces.end(),
+                                     [&](const auto& pair) { return pair.first == face.name; });
+    if (coupled) continue;
+    const Vec3<double> normal = mean_normal(mesh, face);
+    builder.for_each_node(face, [&](std::int32_t node) { builder.mesh_held[node].direction(normal); });
+  }
+
+  constraints_ = assembly::Constraints(pattern, complete_on_ghosts(mesh, builder.held));
+  mesh_constraints_ = complete_on_ghosts(mesh, builder.mesh_held);
+  projector_of_.assign(mesh.nodes(), -1);
+  for (const auto& c : constraints_.list()) {
+    projector_of_[c.node] = static_cast<std::int32_t>(projector_.size());
+    projector_.push_back(c.P);
+  }
+}
+
+void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const {
+  std::vector<double> values;
+  values.reserve(waveforms_.size());
+  for (const auto& waveform : waveforms_) values.push_back(waveform.value(t));
+  for (const auto& p : prescribed_)
+    for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = values[p.waveform] * p.velocity[i];
+  mesh_.halo.update(velocity_pressure, 4);
+}
+
+void Boundaries::add_lumen_load(const Load& load, double value, const FieldsView& fields,
+                                const LoadCoefficients& coefficients, std::span<double> residual,
+                                assembly::BlockMatrix* matrix) const {
+  for (const auto& triangle : mesh_.faces[load.face].triangles) {
+    Vec3<double> x[3], v[3], w[3];
+    corners(fields.position, triangle, x);
+    corners(fields.velocity_pressure, triangle, v);
+    corners(fields.mesh_velocity, triangle, w);
+    fluid::TriangleVector<double> r{};
+    fluid::TriangleMatrix<double> k{};
+    if (load.kind == Load::Kind::lumen_pressure) {
+      fluid::add_pressure(x, value, r);
+    } else {
+      const Vec3<double> force = (-value * fluid::area(x) / 3.0) * load.vector;
+      for (auto& row : r.r) row = row + force;
+    }
+    fluid::add_backflow(x, v, w, *fluid_, r, matrix != nullptr ? &k : nullptr, coefficients.velocity);
+    for (int a = 0; a < 3; ++a) {
+      for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += r.r[a][i];
+      for (int b = 0; b < 3 && matrix != nullptr; ++b)
+        add_block(pattern_, *matrix, triangle[a], triangle[b], k.k[a][b]);
+    }
+  }
+}
+
+void Boundaries::add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
+                               const LoadCoefficients& coefficients, std::span<double> residual,
+                               assembly::BlockMatrix* matrix) const {
+  for (const auto& own : mesh_.faces[load.face].triangles) {
+    const std::array<std::int32_t, 3> triangle{mesh_.host[own[0]], mesh_.host[own[1]], mesh_.host[own[2]]};
+    wall::SupportState<double> s;
+    corners(fields.reference_position, triangle, s.X);
+    corners(fields.displacement, triangle, s.u);
+    corners(fields.velocity_pressure, triangle, s.velocity);
+    Vec3<double> x[3];
+    for (int a = 0; a < 3; ++a) x[a] = s.X[a] + s.u[a];
+    wall::SurfaceVector<double> r{};
+    wall::SurfaceMatrix<double> k{};
+    const double du = coefficients.displacement;
+    switch (load.kind) {
+      case Load::Kind::dead_traction:
+        wall::add_dead_traction(s.X, value * load.vector, r);
+        break;
+      case Load::Kind::dead_pressure:
+        wall::add_pressure(s.X, value, r);
+        break;
+      case Load::Kind::follower_pressure:
+        wall::add_pressure(x, value, r);
+        if (matrix != nullptr) wall::add_pressure_tangent(x, value, du, k);
+        break;
+      default: {
+        const wall::TissueSupport<double> support{load.support.stiffness, load.support.damping,
+                                                  factor * load.support.pressure,
+                                                  load.support.direction == bc::Support::Direction::normal};
+        wall::add_support(s, support, r);
+        if (matrix != nullptr) wall::add_support_tangent(s, support, du, coefficients.velocity, k);
+      }
+    }
+    for (int a = 0; a < 3; ++a) {
+      for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += r.r[a][i];
+      for (int b = 0; b < 3 && matrix != nullptr; ++b)
+        add_block(pattern_, *matrix, triangle[a], triangle[b], [&](int i, int j) { return k.k[a][b][i][j]; });
+    }
+  }
+}
+
+void Boundaries::add_loads(double t, double factor, const FieldsView& fields, const LoadCoefficients& coefficients,
+                           std::span<double> residual, assembly::BlockMatrix* matrix) const {
+  for (const auto& load : loads_) {
+    const double value = factor * load.course.value(t);
+    if (load.kind == Load::Kind::lumen_pressure || load.kind == Load::Kind::lumen_traction)
+      add_lumen_load(load, value, fields, coefficients, residual, matrix);
+    else
+      add_wall_load(load, value, factor, fields, coefficients, residual, matrix);
+  }
+  for (const auto& outlet : outlets_) {  // the pressure of an outlet is added by add_outlets
+    const Load backflow{.face = outlet.face, .kind = Load::Kind::lumen_pressure};
+    add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
+  }
+}
+
+std::vector<bc::Outlet> Boundaries::make_outlets() const {
+  std::vector<bc::Outlet> list;
+  for (const auto& outlet : outlets_) list.emplace_back(mesh_.faces[outlet.face].name, outlet.model);
+  return list;
+}
+
+std::vector<double> Boundaries::outlet_flows(const FieldsView& fields) const {
+  std::vector<double> flows;
+  for (const auto& outlet : outlets_) {
+    const auto& face = mesh_.faces[outlet.face];
+    double sum = 0;
+    for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
+      Vec3<double> x[3], v[3], w[3];
+      corners(fields.position, face.triangles[t], x);
+      corners(fields.velocity_pressure, face.triangles[t], v);
+      corners(fields.mesh_velocity, face.triangles[t], w);
+      sum += fluid::flow(x, v, w);
+    }
+    flows.push_back(sum);
+  }
+  parallel::global_sum(mesh_.comm, flows);
+  return flows;
+}
+
+std::vector<assembly::RankOne> Boundaries::add_outlets(std::span<const double> pressures, const FieldsView& fields,
+                                                       std::span<double> residual) const {
+  std::vector<assembly::RankOne> list;
+  for (std::size_t k = 0; k < outlets_.size(); ++k) {
+    std::map<std::int32_t, Vec3<double>> area;
+    for (const auto& triangle : mesh_.faces[outlets_[k].face].triangles) {
+      Vec3<double> x[3];
+      corners(fields.position, triangle, x);
+      const Vec3<double> third = fluid::nodal_area_vector(x);
+      for (const auto node : triangle)
+        if (node < mesh_.owned_nodes) area[node] = area[node] + third;
+    }
+    assembly::RankOne& term = list.emplace_back();
+    for (const auto& [node, s] : area) {
+      for (int i = 0; i < 3; ++i) residual[at(node) + i] += pressures[k] * s[i];
+      const Vec3<double> free = projector_of_[node] < 0 ? s : projector_[projector_of_[node]] * s;
+      term.nodes.push_back(node);
+      term.s.push_back({free[0], free[1], free[2]});
+    }
+  }
+  return list;
+}
+
+}  // namespace tunica::coupling

@@ -1,0 +1,96 @@
+// The conditions of a case, bound to the faces of a distributed mesh.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tunica/assembly/block_matrix.hpp"
+#include "tunica/assembly/rank_one.hpp"
+#include "tunica/bc/conditions.hpp"
+#include "tunica/coupling/element_loops.hpp"
+#include "tunica/fluid/parameters.hpp"
+#include "tunica/mesh/distributed_mesh.hpp"
+
+namespace tunica::coupling {
+
+/// How the surface loads depend on the Newton unknown.
+struct LoadCoefficients {
+  double velocity = 1.0;      ///< d(v at t_{n+alpha_f}) / d(unknown)
+  double displacement = 0.0;  ///< d(u at t_{n+alpha_f}) / d(unknown)
+};
+
+struct BoundaryInput {
+  std::vector<std::pair<std::string, bc::Condition>> conditions;        ///< face name, condition
+  std::vector<std::pair<std::string, std::string>> interfaces;          ///< (lumen face, wall face)
+  bool wall_has_pressure = true;                                        ///< mixed wall element
+  std::optional<fluid::Parameters> fluid;
+};
+
+class Boundaries {
+ public:
+  /// Throws InputError when check_boundary would. Collective.
+  Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockPattern& pattern, const BoundaryInput& input);
+
+  /// Free motions of nodes in the (v, p) system.
+  const assembly::Constraints& constraints() const { return constraints_; }
+  /// Free motions of lumen nodes in the mesh motion: the interface is led by the wall, openings slide in their plane.
+  const std::vector<assembly::NodeConstraint>& mesh_constraints() const { return mesh_constraints_; }
+
+  /// Sets the prescribed velocities of time t [s] in `velocity_pressure` ([local node][4]).
+  void prescribe(double t, std::span<double> velocity_pressure) const;
+
+  /// Adds all surface loads at time t to the residual ([local node][4]) and, where `matrix` is given, their tangent.
+  /// `factor` multiplies the prescribed loads (pressure, traction, p0), for load steps in statics.
+  void add_loads(double t, double factor, const FieldsView& fields, const LoadCoefficients& coefficients,
+                 std::span<double> residual, assembly::BlockMatrix* matrix) const;
+
+  /// Outlets, in order: their models, and where they are.
+  std::vector<bc::Outlet> make_outlets() const;
+  /// Volume flow out of the outlets [m^3/s] with the fields at t_{n+alpha_f}. Collective.
+  std::vector<double> outlet_flows(const FieldsView& fields) const;
+  /// Adds the pressures of the outlets [Pa] and returns the vectors of their rank-one tangents, coefficient unset.
+  std::vector<assembly::RankOne> add_outlets(std::span<const double> pressures, const FieldsView& fields,
+                                             std::span<double> residual) const;
+
+  struct PrescribedNode {
+    std::int32_t node;
+    Vec3<double> velocity;  ///< per unit of the waveform
+    std::size_t waveform;
+  };
+
+ private:
+  struct Load {
+    std::size_t face;
+    enum class Kind { lumen_pressure, lumen_traction, follower_pressure, dead_pressure, dead_traction, support } kind;
+    bc::Waveform course = bc::Waveform::constant(1.0);
+    Vec3<double> vector{};
+    bc::Support support{};
+  };
+  struct OutletFace {
+    std::size_t face;
+    std::variant<bc::Resistance, bc::Rcr> model;
+  };
+  struct Builder;
+
+  void add_lumen_load(const Load& load, double value, const FieldsView& fields, const LoadCoefficients& coefficients,
+                      std::span<double> residual, assembly::BlockMatrix* matrix) const;
+  void add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
+                     const LoadCoefficients& coefficients, std::span<double> residual,
+                     assembly::BlockMatrix* matrix) const;
+
+  const mesh::DistributedMesh& mesh_;
+  const assembly::BlockPattern& pattern_;
+  std::optional<fluid::Parameters> fluid_;
+  assembly::Constraints constraints_;
+  std::vector<assembly::NodeConstraint> mesh_constraints_;
+  std::vector<bc::Waveform> waveforms_;
+  std::vector<PrescribedNode> prescribed_;
+  std::vector<Load> loads_;
+  std::vector<OutletFace> outlets_;
+  std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_
+  std::vector<std::int32_t> projector_of_;
+};
+
+}  // namespace tunica::coupling

@@ -1,0 +1,57 @@
+// The loops over fluid and wall elements, compiled once per instruction set.
+#pragma once
+
+#include <cstdint>
+
+#include "tunica/assembly/element_batches.hpp"
+#include "tunica/assembly/isa.hpp"
+#include "tunica/fluid/parameters.hpp"
+#include "tunica/fluid/rbvms.hpp"
+#include "tunica/wall/element.hpp"
+#include "tunica/wall/material.hpp"
+
+namespace tunica::coupling {
+
+/// Nodal fields at the instants at which a loop needs them, all [local node][4]; the fourth entry is the pressure in
+/// `velocity_pressure` and unused elsewhere.
+struct FieldsView {
+  const double* reference_position = nullptr;  ///< X [m]
+  const double* position = nullptr;            ///< x at t_{n+alpha_f} [m]; fluid
+  const double* velocity_pressure = nullptr;   ///< v at t_{n+alpha_f} [m/s], p [Pa]
+  const double* acceleration = nullptr;        ///< dv/dt at t_{n+alpha_m} [m/s^2]
+  const double* mesh_velocity = nullptr;       ///< at t_{n+alpha_f} [m/s]; fluid
+  const double* displacement = nullptr;        ///< u at t_{n+alpha_f} [m]; wall
+};
+
+/// Where a loop adds its results. Without `blocks` it computes the residual only.
+struct LoopTarget {
+  double* residual = nullptr;  ///< [local node][4]
+  float* blocks = nullptr;     ///< BlockMatrix::blocks
+};
+
+/// Plain view of ElementBatches.
+struct BatchView {
+  std::int32_t batches, elements;
+  bool split;
+  const std::int32_t *nodes, *hosts, *slots;
+
+  explicit BatchView(const assembly::ElementBatches& b)
+      : batches(b.batches()), elements(b.elements), split(b.split), nodes(b.nodes.data()), hosts(b.hosts.data()),
+        slots(b.slots.data()) {}
+};
+
+struct ElementLoops {
+  void (*fluid)(const BatchView&, const FieldsView&, const fluid::Parameters&, const fluid::TimeCoefficients&,
+                const LoopTarget&);
+  /// `mixed`: the displacement-pressure element, else the displacement element.
+  void (*wall)(const BatchView&, const FieldsView&, const wall::Law&, bool mixed, const wall::Body&,
+               const wall::Coefficients&, const LoopTarget&);
+};
+
+/// Instantiated in element_loops_<isa>.cpp.
+template <int W>
+ElementLoops make_element_loops();
+
+const ElementLoops& element_loops(assembly::Isa isa);
+
+}  // namespace tunica::coupling

@@ -1,0 +1,349 @@
+#include "tunica/coupling/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/error.hpp"
+#include "tunica/parallel/agree.hpp"
+
+namespace tunica::coupling {
+
+using assembly::TimeScheme;
+
+namespace {
+
+std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
+
+/// Adds the time between construction and destruction.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(MPI_Wtime()) {}
+  ~Stopwatch() { total_ += MPI_Wtime() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  double start_;
+};
+
+assembly::KrylovSettings krylov_settings(const LinearSettings& linear) {
+  return {.tolerance = linear.tolerance, .max_iterations = linear.max_iterations, .restart = linear.restart};
+}
+
+bool has_region(const mesh::DistributedMesh& mesh, mesh::RegionKind kind) {
+  return std::any_of(mesh.regions.begin(), mesh.regions.end(), [&](const auto& r) { return r.kind == kind; });
+}
+
+}  // namespace
+
+int StepReport::linear_iterations() const {
+  int sum = 0;
+  for (const auto& record : iterations) sum += record.linear_iterations;
+  return sum;
+}
+
+Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
+    : mesh_(mesh),
+      input_(input),
+      isa_(assembly::choose_isa()),
+      pattern_(assembly::make_pattern(mesh)),
+      boundaries_(mesh, pattern_, input.boundary),
+      follows_wall_(mesh.nodes(), 0),
+      matrix_(pattern_),
+      solver_(mesh, pattern_, isa_, krylov_settings(input.linear)) {
+  const bool lumen = has_region(mesh, mesh::RegionKind::lumen), wall = has_region(mesh, mesh::RegionKind::wall);
+  if (lumen != input.fluid.has_value())
+    throw InputError("fluid", lumen ? "the mesh has a lumen but the case has no fluid" : "there is no lumen to flow in",
+                     "give both a lumen mesh and a `fluid` section, or neither");
+  if (wall != input.wall.has_value())
+    throw InputError("wall", wall ? "the mesh has a wall but the case has no wall law" : "there is no wall mesh",
+                     "give both a wall mesh and a `wall` section, or neither");
+  if (wall) law_ = input.wall->law();
+  for (const auto& region : mesh.regions) {
+    const int width = static_cast<int>(isa_);
+    regions_.push_back({region.kind, make_batches(mesh, region, pattern_, width, false),
+                        make_batches(mesh, region, pattern_, width, true)});
+    if (region.kind == mesh::RegionKind::wall)
+      for (const auto& element : region.elements)
+        for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
+  }
+  if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
+
+  const std::size_t n = at(mesh.nodes());
+  reference_position_.assign(n, 0.0);
+  for (std::int32_t i = 0; i < mesh.nodes(); ++i)
+    for (int c = 0; c < 3; ++c) reference_position_[at(i) + c] = mesh.points[i][c];
+  position_ = reference_position_;
+  for (auto* field : {&velocity_pressure_, &acceleration_, &mesh_velocity_, &displacement_, &residual_, &increment_})
+    field->assign(n, 0.0);
+}
+
+State Problem::initial_state() const {
+  State state;
+  const std::size_t n = at(mesh_.nodes());
+  for (auto* field : {&state.velocity_pressure, &state.acceleration, &state.displacement, &state.displacement_rate})
+    field->assign(n, 0.0);
+  state.outlets = boundaries_.make_outlets();
+  return state;
+}
+
+FieldsView Problem::fields() const {
+  return {reference_position_.data(), position_.data(),      velocity_pressure_.data(),
+          acceleration_.data(),       mesh_velocity_.data(), displacement_.data()};
+}
+
+void Problem::synchronise_twins(State& state) const {
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i) {
+    const auto host = mesh_.host[i];
+    if (host == i) continue;
+    for (auto* field : {&state.velocity_pressure, &state.acceleration, &state.displacement, &state.displacement_rate})
+      for (int c = 0; c < 3; ++c) (*field)[at(i) + c] = (*field)[at(host) + c];
+  }
+}
+
+// Fields at the instants of generalised-alpha; statics takes the new values themselves.
+void Problem::evaluate_fields(const State& old_state, const State& next, const Instant& instant) {
+  if (!instant.scheme) {
+    velocity_pressure_ = next.velocity_pressure;
+    displacement_ = next.displacement;
+    return;
+  }
+  const TimeScheme& scheme = *instant.scheme;
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t k = at(i) + c;
+      velocity_pressure_[k] = scheme.at_alpha_f(old_state.velocity_pressure[k], next.velocity_pressure[k]);
+      acceleration_[k] = scheme.at_alpha_m(old_state.acceleration[k], next.acceleration[k]);
+      displacement_[k] = scheme.at_alpha_f(old_state.displacement[k], next.displacement[k]);
+      mesh_velocity_[k] = scheme.at_alpha_m(old_state.displacement_rate[k], next.displacement_rate[k]);
+      position_[k] = reference_position_[k] + displacement_[k];
+    }
+    velocity_pressure_[at(i) + 3] = next.velocity_pressure[at(i) + 3];
+  }
+}
+
+// Rates and wall displacements that belong to the velocities of `next`.
+void Problem::follow_velocity(const State& old_state, State& next, const TimeScheme& scheme) const {
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t k = at(i) + c;
+      const double v_old = old_state.velocity_pressure[k], v = next.velocity_pressure[k];
+      next.acceleration[k] = scheme.new_rate(v_old, old_state.acceleration[k], v);
+      if (!follows_wall_[i]) continue;
+      const double rate_old = old_state.displacement_rate[k];
+      next.displacement_rate[k] = scheme.displacement_rate(rate_old, scheme.at_alpha_f(v_old, v));
+      next.displacement[k] = scheme.new_value(old_state.displacement[k], rate_old, next.displacement_rate[k]);
+    }
+}
+
+int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& scheme) {
+  if (!mesh_motion_) return 0;
+  const Stopwatch watch(timings_->mesh);
+  const int iterations = mesh_motion_->solve(next.displacement, input_.newton.mesh_tolerance);
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    if (!follows_wall_[i])
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t k = at(i) + c;
+        next.displacement_rate[k] =
+            scheme.new_rate(old_state.displacement[k], old_state.displacement_rate[k], next.displacement[k]);
+      }
+  return iterations;
+}
+
+void Problem::add_elements(mesh::RegionKind kind, const Instant& instant, std::span<double> residual,
+                           float* blocks) const {
+  const ElementLoops& loops = element_loops(isa_);
+  const LoopTarget target{residual.data(), blocks};
+  for (const auto& region : regions_) {
+    if (region.kind != kind) continue;
+    for (const auto* batches : {&region.plain, &region.split}) {
+      if (batches->elements == 0) continue;
+      if (kind == mesh::RegionKind::lumen) {
+        const auto& s = *instant.scheme;
+        loops.fluid(BatchView(*batches), fields(), *input_.fluid,
+                    {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, target);
+      } else {
+        // The constraint rows are scaled so that their coupling to the velocity is that of the continuity equation.
+        const wall::Coefficients c =
+            instant.scheme ? wall::Coefficients{instant.scheme->acceleration_per_unknown(),
+                                                instant.scheme->displacement_per_unknown(),
+                                                instant.scheme->velocity_per_unknown() /
+                                                    instant.scheme->displacement_per_unknown()}
+                           : wall::Coefficients{};
+        loops.wall(BatchView(*batches), fields(), *law_, input_.wall->element == wall::Element::mixed, input_.wall->body(), c,
+                   target);
+      }
+    }
+  }
+}
+
+void Problem::assemble(const State& next, const Instant& instant, bool with_tangent) {
+  const Stopwatch watch(timings_->assembly);
+  std::fill(residual_.begin(), residual_.end(), 0.0);
+  if (with_tangent) matrix_.set_zero();
+  float* blocks = with_tangent ? matrix_.blocks.data()->a : nullptr;
+  add_elements(mesh::RegionKind::lumen, instant, residual_, blocks);
+  add_elements(mesh::RegionKind::wall, instant, residual_, blocks);
+
+  const LoadCoefficients loads = instant.scheme ? LoadCoefficients{instant.scheme->velocity_per_unknown(),
+                                                                   instant.scheme->displacement_per_unknown()}
+                                                : LoadCoefficients{0.0, 1.0};
+  boundaries_.add_loads(instant.time, instant.load_factor, fields(), loads, residual_,
+                        with_tangent ? &matrix_ : nullptr);
+  outlet_flows_ = boundaries_.outlet_flows(fields());
+  std::vector<double> pressures, slopes;
+  for (std::size_t k = 0; k < next.outlets.size(); ++k) {
+    const auto p = next.outlets[k].evaluate_at_alpha(instant.scheme->dt, instant.scheme->alpha_f, outlet_flows_[k]);
+    pressures.push_back(p.pressure);
+    slopes.push_back(p.per_alpha_flow * instant.scheme->velocity_per_unknown());
+  }
+  outlets_ = boundaries_.add_outlets(pressures, fields(), residual_);
+  for (std::size_t k = 0; k < outlets_.size(); ++k) outlets_[k].coefficient = slopes[k];
+
+  boundaries_.constraints().apply(residual_);
+  if (with_tangent) boundaries_.constraints().apply(matrix_);
+}
+
+std::string Problem::mesh_failure() const {
+  if (!mesh_motion_) return {};
+  const MeshQuality worst = mesh_quality(mesh_, position_);
+  if (worst.smallest > input_.mesh_motion.minimum_quality) return {};
+  return fmt::format("the moving lumen mesh is spoilt: element {} near ({:.5g}, {:.5g}, {:.5g}) m has {:.3g} of its "
+                     "initial quality, allowed is {:.3g}",
+                     worst.element, worst.place[0], worst.place[1], worst.place[2], worst.smallest,
+                     input_.mesh_motion.minimum_quality);
+}
+
+// next = start + step_length * increment, and all that follows from it.
+void Problem::update(const State& old_state, State& next, const Instant& instant, std::span<const double> start,
+                     double step_length, NewtonRecord& record) {
+  auto& unknown = instant.scheme ? next.velocity_pressure : next.displacement;
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
+    const double value = start[k] + step_length * increment_[k];
+    if (k % 4 < 3)
+      unknown[k] = value;
+    else
+      next.velocity_pressure[k] = value;
+  }
+  if (instant.scheme) {
+    follow_velocity(old_state, next, *instant.scheme);
+    record.mesh_iterations += move_mesh(old_state, next, *instant.scheme);
+  }
+  synchronise_twins(next);
+  record.step_length = step_length;
+  evaluate_fields(old_state, next, instant);
+}
+
+StepReport Problem::newton(const State& old_state, State& next, const Instant& instant) {
+  StepReport report;
+  timings_ = &report.timings;
+  const Stopwatch watch(report.timings.total);
+  const NewtonSettings& settings = input_.newton;
+  const std::size_t owned = at(mesh_.owned_nodes);
+  std::vector<double> negative(owned), start;
+
+  double norm = 0, target = 0;
+  for (int k = 0;; ++k) {
+    if (k == 0) {
+      assemble(next, instant, true);
+      const Stopwatch set_up(report.timings.set_up);
+      solver_.update_preconditioner(matrix_, outlets_);
+      norm = solver_.norm(std::span(residual_).first(owned));
+      next.residual_reference = std::max(next.residual_reference, norm);
+      target = settings.relative_tolerance * std::max(norm, settings.reference_fraction * next.residual_reference);
+    }
+    report.final_norm = norm;
+    if (!std::isfinite(norm)) {
+      report.failure = "the residual is not a finite number";
+      return report;
+    }
+    if (norm <= target && (k > 0 || norm == 0.0)) {
+      report.converged = true;
+      return report;
+    }
+    if (k == settings.max_iterations) {
+      report.failure = fmt::format("Newton's method did not converge in {} iterations: residual {:.3e}, asked {:.3e}",
+                                   k, norm, target);
+      return report;
+    }
+    if (k > 0) assemble(next, instant, true);
+    NewtonRecord& record = report.iterations.emplace_back();
+    record.norm = norm;
+    for (std::size_t i = 0; i < owned; ++i) negative[i] = -residual_[i];
+    {
+      const Stopwatch linear(report.timings.linear);
+      const auto result = solver_.solve(matrix_, outlets_, negative, increment_);
+      record.linear_iterations = result.iterations;
+      if (!result.converged) {
+        report.failure = fmt::format("the linear solver stopped after {} iterations at a relative residual of {:.2e}",
+                                     result.iterations, result.residual);
+        return report;
+      }
+    }
+    start = instant.scheme ? next.velocity_pressure : next.displacement;
+    for (std::size_t i = 3; i < start.size(); i += 4) start[i] = next.velocity_pressure[i];
+    double new_norm = 0, step_length = 1.0;
+    for (int halving = 0;; ++halving, step_length *= 0.5) {
+      update(old_state, next, instant, start, step_length, record);
+      report.failure = mesh_failure();
+      if (report.failure.empty()) {
+        assemble(next, instant, false);
+        new_norm = solver_.norm(std::span(residual_).first(owned));
+        if (std::isfinite(new_norm) && (new_norm <= settings.growth * norm || new_norm <= target)) break;
+        report.failure = fmt::format("the residual grows from {:.3e} to {:.3e} along the Newton direction", norm, new_norm);
+      }
+      if (halving == settings.line_search) return report;
+    }
+    report.failure.clear();
+    norm = new_norm;
+  }
+}
+
+StepReport Problem::advance(State& state, double dt) {
+  const TimeScheme scheme = TimeScheme::generalised_alpha(dt, input_.rho_infinity);
+  const Instant instant{scheme, state.time + scheme.alpha_f * dt, 1.0};
+  State next = state;
+  next.time = state.time + dt;
+  next.dt = dt;
+  ++next.step;
+  boundaries_.prescribe(next.time, next.velocity_pressure);
+  StepReport unused;
+  timings_ = &unused.timings;
+  follow_velocity(state, next, scheme);
+  move_mesh(state, next, scheme);
+  synchronise_twins(next);
+  evaluate_fields(state, next, instant);
+
+  StepReport report = newton(state, next, instant);
+  if (!report.converged) return report;
+  last_instant_ = instant;
+  for (std::size_t k = 0; k < next.outlets.size(); ++k) {
+    const double old_flow = state.outlets[k].flow();
+    next.outlets[k].commit(dt, old_flow + (outlet_flows_[k] - old_flow) / scheme.alpha_f);
+  }
+  state = std::move(next);
+  return report;
+}
+
+StepReport Problem::solve_static(State& state, double factor) {
+  const Instant instant{std::nullopt, state.time, factor};
+  State next = state;
+  evaluate_fields(state, next, instant);
+  StepReport report = newton(state, next, instant);
+  if (!report.converged) return report;
+  last_instant_ = instant;
+  state = std::move(next);
+  return report;
+}
+
+Problem::PartialResiduals Problem::partial_residuals() const {
+  PartialResiduals parts{std::vector<double>(residual_.size()), std::vector<double>(residual_.size())};
+  add_elements(mesh::RegionKind::lumen, last_instant_, parts.lumen, nullptr);
+  add_elements(mesh::RegionKind::wall, last_instant_, parts.wall, nullptr);
+  return parts;
+}
+
+}  // namespace tunica::coupling

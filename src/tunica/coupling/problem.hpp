@@ -1,0 +1,125 @@
+// One time step of flow, wall and mesh motion as a monolithic system (docs/theory.md, section 4).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tunica/ale/parameters.hpp"
+#include "tunica/assembly/linear_solver.hpp"
+#include "tunica/assembly/time_scheme.hpp"
+#include "tunica/coupling/boundaries.hpp"
+#include "tunica/coupling/mesh_motion.hpp"
+#include "tunica/coupling/settings.hpp"
+#include "tunica/coupling/state.hpp"
+#include "tunica/wall/parameters.hpp"
+
+namespace tunica::coupling {
+
+/// What is to be solved; lumen and wall are each present or not, as the mesh is.
+struct ProblemInput {
+  std::optional<fluid::Parameters> fluid;
+  std::optional<wall::Parameters> wall;
+  ale::Parameters mesh_motion;
+  BoundaryInput boundary;
+  double rho_infinity = 0.5;
+  NewtonSettings newton;
+  LinearSettings linear;
+};
+
+/// What one Newton iteration did.
+struct NewtonRecord {
+  double norm = 0;            ///< of the residual it started from
+  int linear_iterations = 0;
+  int mesh_iterations = 0;
+  double step_length = 1;     ///< below 1 after a line search
+};
+
+/// Seconds spent.
+struct StepTimings {
+  double assembly = 0, set_up = 0, linear = 0, mesh = 0, total = 0;
+};
+
+struct StepReport {
+  bool converged = false;
+  std::string failure;  ///< why not
+  std::vector<NewtonRecord> iterations;
+  double final_norm = 0;
+  StepTimings timings;
+
+  int linear_iterations() const;
+};
+
+class Problem {
+ public:
+  /// Throws InputError when mesh, physics and conditions do not fit. Collective.
+  Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input);
+
+  /// At rest, undeformed.
+  State initial_state() const;
+
+  /// Takes `state` from t_n to t_n + dt, or leaves it untouched and says why not. Collective.
+  StepReport advance(State& state, double dt);
+
+  /// Static equilibrium of the wall under `factor` times the loads of time state.time, starting from `state`.
+  /// Collective.
+  StepReport solve_static(State& state, double factor);
+
+  /// Residual of the lumen elements alone and of the wall elements alone for the step that `advance` last accepted:
+  /// their sum vanishes at the interface. [local node][4], at t_{n+alpha_f}. Collective.
+  struct PartialResiduals {
+    std::vector<double> lumen, wall;
+  };
+  PartialResiduals partial_residuals() const;
+
+  /// Fields at t_{n+alpha_f} of the last evaluation.
+  FieldsView fields() const;
+  const Boundaries& boundaries() const { return boundaries_; }
+  const mesh::DistributedMesh& mesh() const { return mesh_; }
+  const ProblemInput& input() const { return input_; }
+  bool moving() const { return mesh_motion_.has_value(); }
+
+ private:
+  /// How the residual depends on the Newton unknown, and at which instant it is evaluated.
+  struct Instant {
+    std::optional<assembly::TimeScheme> scheme;  ///< none: statics
+    double time = 0;                             ///< t_{n+alpha_f} [s]
+    double load_factor = 1;
+  };
+  struct Regional {
+    mesh::RegionKind kind;
+    assembly::ElementBatches plain, split;
+  };
+
+  void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
+  void follow_velocity(const State& old_state, State& next, const assembly::TimeScheme& scheme) const;
+  int move_mesh(const State& old_state, State& next, const assembly::TimeScheme& scheme);
+  void synchronise_twins(State& state) const;
+  void add_elements(mesh::RegionKind kind, const Instant& instant, std::span<double> residual, float* blocks) const;
+  void assemble(const State& next, const Instant& instant, bool with_tangent);
+  StepReport newton(const State& old_state, State& next, const Instant& instant);
+  void update(const State& old_state, State& next, const Instant& instant, std::span<const double> start,
+              double step_length, NewtonRecord& record);
+  std::string mesh_failure() const;
+
+  const mesh::DistributedMesh& mesh_;
+  ProblemInput input_;
+  assembly::Isa isa_;
+  assembly::BlockPattern pattern_;
+  Boundaries boundaries_;
+  std::vector<Regional> regions_;
+  std::optional<wall::Law> law_;
+  std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
+  assembly::BlockMatrix matrix_;
+  assembly::LinearSolver solver_;
+  std::optional<MeshMotion> mesh_motion_;
+
+  std::vector<double> reference_position_, position_, velocity_pressure_, acceleration_, mesh_velocity_, displacement_;
+  std::vector<double> residual_, increment_;
+  std::vector<assembly::RankOne> outlets_;
+  std::vector<double> outlet_flows_;
+  Instant last_instant_;
+  StepTimings* timings_ = nullptr;
+};
+
+}  // namespace tunica::coupling

@@ -1,0 +1,26 @@
+// Everything that a time step starts from. Nothing else is remembered between steps, so a run that is continued from
+// a saved state takes the same steps, bit for bit, on the same number of ranks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tunica/bc/outlets.hpp"
+
+namespace tunica::coupling {
+
+/// Nodal fields, [local node][4] with ghosts up to date. Twin nodes (wall side of the interface) repeat the motion of
+/// their hosts. In the lumen, displacement is that of the mesh.
+struct State {
+  std::int64_t step = 0;
+  double time = 0.0;  ///< s
+  double dt = 0.0;    ///< size of the step that led here; 0 at the start [s]
+  std::vector<double> velocity_pressure;  ///< v at t_n [m/s]; p, collocated at t_{n-1+alpha_f} [Pa]
+  std::vector<double> acceleration;       ///< dv/dt at t_n, at fixed mesh node [m/s^2]
+  std::vector<double> displacement;       ///< u at t_n [m]
+  std::vector<double> displacement_rate;  ///< du/dt at t_n [m/s]
+  std::vector<bc::Outlet> outlets;        ///< in the order of the model's outlet faces
+  double residual_reference = 0.0;        ///< largest initial residual norm so far: what "small" is measured against
+};
+
+}  // namespace tunica::coupling
