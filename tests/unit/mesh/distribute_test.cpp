@@ -136,6 +136,48 @@ TEST(Distribute, KeepsTwinsNextToTheirHosts) {
   }
 }
 
+/// A bar along x: lumen of four cells, then a wall of `wall_cells`, with four twins where they meet. Cuts across it
+/// leave ranks that see a twin but no lumen element.
+MeshData bar(int wall_cells) {
+  MeshData data = box(4, 1, 1, {{4, 1, 1}}, RegionKind::lumen);
+  const MeshData wall = box(wall_cells, 1, 1, {{static_cast<double>(wall_cells), 1, 1}}, RegionKind::wall);
+  const auto offset = static_cast<std::int64_t>(data.points.size());
+  const auto first_wall = static_cast<std::int64_t>(data.tetrahedra.size());
+  for (const auto& point : wall.points) data.points.push_back(point + Vec3<double>{{4, 0, 0}});
+  for (auto element : wall.tetrahedra) {
+    for (auto& node : element) node += offset;
+    data.tetrahedra.push_back(element);
+  }
+  data.regions.push_back({"wall", RegionKind::wall, first_wall, static_cast<std::int64_t>(data.tetrahedra.size())});
+  data.faces.clear();
+  for (std::int64_t host = 0; host < offset; ++host)
+    for (auto twin = offset; twin < static_cast<std::int64_t>(data.points.size()); ++twin)
+      if (norm(data.points[twin] - data.points[host]) < 1e-9) data.twins.push_back({twin, host});
+  return data;
+}
+
+TEST(Distribute, BringsTheHostWithATwinThatNoLumenElementBrings) {
+  std::int64_t hosts_without_element = 0;
+  for (int wall_cells = 3; wall_cells <= 9; ++wall_cells) {
+    const MeshData whole = bar(wall_cells);
+    ASSERT_EQ(whole.twins.size(), 4u);
+    const std::map<std::int64_t, std::int64_t> host_of(whole.twins.begin(), whole.twins.end());
+    const DistributedMesh mesh = distribute(whole, MPI_COMM_WORLD);
+    std::set<std::int32_t> touched;
+    for (const auto& region : mesh.regions)
+      for (const auto& element : region.elements) touched.insert(element.begin(), element.end());
+    for (std::int32_t n = 0; n < mesh.nodes(); ++n) {
+      const std::int64_t original = mesh.original_ids[n];
+      EXPECT_EQ(mesh.host[n] < 0 ? -1 : mesh.original_ids[mesh.host[n]],
+                host_of.contains(original) ? host_of.at(original) : original);
+      hosts_without_element += touched.contains(n) ? 0 : 1;
+    }
+  }
+  // The situation this test is about must have occurred.
+  hosts_without_element = parallel::global_sum(MPI_COMM_WORLD, hosts_without_element);
+  EXPECT_EQ(hosts_without_element > 0, parallel::size(MPI_COMM_WORLD) > 1);
+}
+
 /// Columns of a row: all nodes of the elements around the node or, at the interface, around its twins, and the hosts of
 /// those nodes. The rank that owns the row must come to the same set as the whole mesh.
 TEST(Distribute, SeesEveryColumnOfItsRows) {
