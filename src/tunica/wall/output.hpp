@@ -22,15 +22,18 @@ TUNICA_INLINE T displacement_strain_energy(const ElementState<T>& e, const L& la
   return e.reference.volume * (law.energy(k.C_bar) + volumetric);
 }
 
-/// Stored energy of a mixed element [J]: V Psi(C_bar) + integral of p^2 / (2 K), zero volumetric part when
-/// incompressible. p^2 / (2 K) is exact for the quadratic energy and to first order in p/K for the others.
+/// Stored energy of a mixed element [J]: V Psi(C_bar) + integral of p^2 / (2 K) + tau_u/2 |grad_X p|^2. The volumetric
+/// part is exact for the quadratic energy and to first order in p/K for the others; it vanishes when incompressible.
+/// The last term is what the stabilisation stores, of order h^2; without it the energy balance would not close.
 template <class T, Material L>
 TUNICA_INLINE T mixed_strain_energy(const ElementState<T>& e, const L& law, const Body& body) {
   const Kinematics<T> k = kinematics(e);
   const T sum = e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3];
   T squares = sum * sum;
   for (const T& p : e.pressure) squares += p * p;
-  return e.reference.volume * (law.energy(k.C_bar) + T(body.volumetric.compressibility() / 40.0) * squares);
+  const Vec3<T> gradient = pressure_gradient(e);
+  const T subscale = T(0.5) * subscale_compliance(e, law, body) * dot(gradient, gradient);
+  return e.reference.volume * (law.energy(k.C_bar) + T(body.volumetric.compressibility() / 40.0) * squares + subscale);
 }
 
 namespace detail {

@@ -299,7 +299,7 @@ TEST(WallElement, StabilisationUsesTheEdgeOfARegularTetrahedron) {
   const Vec3<double> x[4] = {{{1, 1, 1}}, {{-1, 1, -1}}, {{1, -1, -1}}, {{-1, -1, 1}}};
   e.reference = fe::gradients(x);
   const Body body{.density = 1.0, .volumetric = {}, .stabilisation = 0.25};
-  EXPECT_NEAR(stabilisation_time(e, NeoHooke{4.0}, body), 0.25 * 8.0 / 4.0, 1e-14);  // edge^2 = 8
+  EXPECT_NEAR(subscale_compliance(e, NeoHooke{4.0}, body), 0.25 * 8.0 / 4.0, 1e-14);  // edge^2 = 8
 }
 
 }  // namespace

@@ -59,6 +59,30 @@ TEST(WallOutput, StrainEnergiesAgreeForTheQuadraticEnergy) {
               e.reference.volume * NeoHooke{2.0}.energy(kinematics(e).C_bar), 1e-14);
 }
 
+/// With the quadratic energy the mixed equations derive from a potential: residual . dx = d(stored) when the pressure
+/// satisfies its equation, that is dPi with Pi = Psi - p (J - 1) - p^2/(2 K) - tau/2 |grad p|^2.
+TEST(WallOutput, MixedElementDerivesFromAPotential) {
+  using D = Dual<double, 16>;
+  std::mt19937 random(19);
+  ElementState<double> e = some_state(random);
+  for (auto& a : e.acceleration) a = {{0, 0, 0}};
+  const Body body{.density = 1.0, .volumetric = {VolumetricEnergy::quadratic, 40.0}};
+  ElementState<D> d = test::converted<D>(e);
+  for (int a = 0; a < 4; ++a) {
+    for (int i = 0; i < 3; ++i) d.displacement[a][i] = D::variable(e.displacement[a][i], 4 * a + i);
+    d.pressure[a] = D::variable(e.pressure[a], 4 * a + 3);
+  }
+  const test::ExponentialFibre law;
+  const Kinematics<D> k = kinematics(d);
+  const D isochoric = d.reference.volume * law.energy(k.C_bar);
+  const D work =
+      d.reference.volume * (k.J - D(1.0)) * D(0.25) * (d.pressure[0] + d.pressure[1] + d.pressure[2] + d.pressure[3]);
+  const D potential = D(2.0) * isochoric - mixed_strain_energy(d, law, body) - work;
+  fe::ElementVector<double> r;
+  mixed_residual(e, law, body, {.acceleration = 0.0, .displacement = 1.0, .constraint = -1.0}, r);
+  for (int n = 0; n < 16; ++n) EXPECT_NEAR(r.r[n / 4][n % 4], potential.d[n], 1e-13);
+}
+
 TEST(WallOutput, PrincipalStressesAndVonMises) {
   const Symmetric<double> uniaxial{{5.0, 0, 0, 0, 0, 0}};
   EXPECT_DOUBLE_EQ(von_mises(uniaxial), 5.0);
