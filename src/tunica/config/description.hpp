@@ -60,6 +60,7 @@ enum class Kind {
   choice,      ///< one of `names`: its index, int64
   any_of,      ///< list of some of `names`: vector<bool>
   text,        ///< string
+  texts,       ///< list of strings, or a single one: vector<string>
   file,        ///< existing file, relative to the folder of the case file: string
   folder,      ///< existing folder, likewise
   path,        ///< file or folder that need not exist, likewise
@@ -68,7 +69,8 @@ enum class Kind {
   list         ///< list of nested descriptions
 };
 
-using Value = std::variant<double, std::int64_t, bool, std::string, std::vector<double>, std::vector<bool>>;
+using Value = std::variant<double, std::int64_t, bool, std::string, std::vector<double>, std::vector<bool>,
+                           std::vector<std::string>>;
 
 struct Field {
   std::string key;
@@ -80,6 +82,7 @@ struct Field {
   Dimension dimension{};
   Range allowed{};
   std::optional<Range> plausible;
+  std::string plausible_text;                 ///< the same in the units of its declaration
   std::vector<std::string> names;             ///< of choice, any_of
   std::size_t count = 0;                      ///< of quantities: how many; 0: any number
   std::shared_ptr<const Description> nested;  ///< of section, map, list

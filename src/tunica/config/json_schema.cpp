@@ -45,6 +45,8 @@ Json value_of(const Field& f) {
       return {{"type", "boolean"}};
     case Kind::choice:
       return {{"type", "string"}, {"enum", f.names}};
+    case Kind::texts:
+      return {{"anyOf", {Json{{"type", "string"}}, list_of({{"type", "string"}}, 0)}}};
     case Kind::any_of:
       return list_of({{"type", "string"}, {"enum", f.names}}, 0);
     case Kind::section:

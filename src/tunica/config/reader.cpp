@@ -164,8 +164,8 @@ class Reader {
 
   /// A default that does not read is a slip in the description: Description audits find it.
   void read_default(const Field& field, void* object, const std::string& path) {
-    static const Origin no_files{.name = "default", .folder = {}, .check_files = false};
-    Reader reader(no_files);
+    const Origin unchecked{.name = "default", .folder = origin_.folder, .check_files = false};
+    Reader reader(unchecked);
     reader.read_field(field, object, YAML::Load(*field.default_text), below(path, field.key), 1);
     if (!reader.errors.empty()) throw std::logic_error("bad default: " + format(reader.errors.front()));
   }
@@ -227,6 +227,7 @@ class Reader {
 
   std::optional<Value> value_of(const Field& field, const YAML::Node& node, const std::string& path, int line) {
     if (field.kind == Kind::quantities) return quantities(field, node, path, line);
+    if (field.kind == Kind::texts) return texts(node, path, line);
     if (field.kind == Kind::any_of) return any_of(field, node, path, line);
     if (!node.IsScalar()) {
       error(path, line, fmt::format("is {}; a single value is due: {}", form_of(node), field.help),
@@ -284,9 +285,7 @@ class Reader {
     const std::string si = in_si(si_value(field, text), field.dimension);
     const std::string in_unit = si == text ? "" : " = " + si;
     warnings.push_back(
-        {where(path, line),
-         fmt::format("`{}`{} is unusual: {} to {} is expected", text, in_unit, in_si(usual.low, field.dimension),
-                     in_si(usual.high, field.dimension)),
+        {where(path, line), fmt::format("`{}`{} is unusual: {} is expected", text, in_unit, field.plausible_text),
          meant.empty() ? "check value and unit" : fmt::format("a slip of the unit? `{}` would be usual", meant)});
   }
   static double si_value(const Field& field, const std::string& text) {
@@ -314,16 +313,26 @@ class Reader {
     return std::nullopt;
   }
 
-  std::optional<Value> any_of(const Field& field, const YAML::Node& node, const std::string& path, int line) {
-    if (!node.IsSequence()) {
-      error(path, line, fmt::format("is {}; a list is due", form_of(node)),
-            fmt::format("write some of [{}]", join(field.names)));
-      return std::nullopt;
+  std::optional<Value> texts(const YAML::Node& node, const std::string& path, int line) {
+    if (node.IsScalar()) return std::vector<std::string>{node.Scalar()};
+    std::vector<std::string> list;
+    bool good = node.IsSequence();
+    for (std::size_t i = 0; good && i < node.size(); ++i) {
+      good = node[i].IsScalar();
+      if (good) list.push_back(node[i].Scalar());
     }
+    if (good) return list;
+    error(path, line, fmt::format("is {}; a text or a list of texts is due", form_of(node)), "write `[a, b]`");
+    return std::nullopt;
+  }
+
+  std::optional<Value> any_of(const Field& field, const YAML::Node& node, const std::string& path, int line) {
+    const std::optional<Value> given = texts(node, path, line);
+    if (!given) return std::nullopt;
     std::vector<bool> flags(field.names.size(), false);
     bool good = true;
-    for (const YAML::Node& item : node) {
-      const auto index = index_of(field, item.IsScalar() ? item.Scalar() : form_of(item), path, line);
+    for (const std::string& text : std::get<std::vector<std::string>>(*given)) {
+      const auto index = index_of(field, text, path, line);
       good = good && index;
       if (index) flags[*index] = true;
     }

@@ -34,6 +34,8 @@ std::string value_of(const Field& f) {
       return "list of " + names_of(f.names);
     case Kind::text:
       return "text";
+    case Kind::texts:
+      return "text or list of texts";
     case Kind::file:
       return "file";
     case Kind::folder:
@@ -41,7 +43,7 @@ std::string value_of(const Field& f) {
     case Kind::path:
       return "path";
     case Kind::section:
-      return f.nested->name.empty() ? "section" : fmt::format("section: {}", f.nested->name);
+      return "section";
     case Kind::map:
       return fmt::format("`<name>:` {}", f.nested->name);
     case Kind::list:
@@ -58,10 +60,7 @@ std::string range_of(const Field& f) {
     if (f.kind == Kind::integer && shown.high > 2e9) shown.high = std::numeric_limits<double>::infinity();
     text = shown.text(f.dimension);
   }
-  if (f.plausible)
-    text += fmt::format(
-        "{}usually {}", text.empty() ? "" : "; ",
-        fmt::format("{} to {}", in_si(f.plausible->low, f.dimension), in_si(f.plausible->high, f.dimension)));
+  if (f.plausible) text += fmt::format("{}usually {}", text.empty() ? "" : "; ", f.plausible_text);
   return text;
 }
 
@@ -69,7 +68,7 @@ std::string default_of(const Description& d, const Field& f) {
   if (d.one_of) return "";
   if (f.required) return "**required**";
   if (!f.default_text) return "none";
-  return f.default_text->empty() ? "empty" : fmt::format("`{}`", *f.default_text);
+  return *f.default_text == "{}" ? "its defaults" : fmt::format("`{}`", *f.default_text);
 }
 
 std::string row(std::initializer_list<std::string> cells) {
@@ -103,6 +102,13 @@ std::string table(const Description& d) {
   return rows;
 }
 
+/// What the key is for, and what kind of thing it holds, unless they say the same.
+std::string both_helps(const Description& d, const Field& f) {
+  const std::string& general = f.nested->help;
+  if (d.one_of || general.starts_with(f.help)) return general;
+  return fmt::format("{}. {}", f.help, general);
+}
+
 class Reference {
  public:
   void write(const Description& d, const std::string& path, const std::string& help) {
@@ -131,8 +137,7 @@ class Reference {
       std::string below = path.empty() ? f.key : path + "." + f.key;
       if (f.kind == Kind::map) below += ".<name>";
       if (f.kind == Kind::list) below += "[]";
-      const bool same = d.one_of || f.help == f.nested->help;
-      write(*f.nested, below, same ? f.nested->help : fmt::format("{}. {}", f.help, f.nested->help));
+      write(*f.nested, below, both_helps(d, f));
     }
     for (const Include& include : d.includes) nested(*include.nested, path);
   }

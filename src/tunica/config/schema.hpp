@@ -137,6 +137,13 @@ class Schema {
   Schema& text(std::string key, A access, std::string help) {
     return string(std::move(key), Kind::text, access, std::move(help));
   }
+  /// Member: std::vector<std::string>. A single text stands for a list of one.
+  template <std::invocable<T&> A>
+  Schema& texts(std::string key, A access, std::string help) {
+    Field& f = leaf<std::vector<std::string>>(std::move(key), Kind::texts, access, std::move(help));
+    f.initial = "[]";
+    return *this;
+  }
   template <std::invocable<T&> A>
   Schema& file(std::string key, A access, std::string help) {
     return string(std::move(key), Kind::file, access, std::move(help));
@@ -168,7 +175,7 @@ class Schema {
     };
     return *this;
   }
-  /// Flags of a std::array<bool, N>, listed by name: `axes: [x, z]`.
+  /// Flags of a std::array<bool, N>, listed by name: `axes: [x, z]`; a single name stands for a list of one.
   template <std::invocable<T&> A>
   Schema& any_of(std::string key, A access, std::vector<std::string> names, std::string help) {
     Field& f = field(std::move(key), Kind::any_of, std::move(help));
@@ -309,6 +316,7 @@ class Schema {
   /// Outside of these a warning is given, with the unit that was likely meant.
   Schema& plausible(std::string_view low, std::string_view high) {
     const Dimension& d = last().dimension;
+    last().plausible_text = std::string(low).append(" to ").append(high);
     last().plausible = range(std::get<double>(parse_quantity(low, d)), std::get<double>(parse_quantity(high, d)));
     return *this;
   }

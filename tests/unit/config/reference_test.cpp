@@ -42,8 +42,8 @@ TEST(Reference, ListsEveryKeyWithUnitRangeAndDefault) {
   for (const char* line : {
            "| `share` | number | >= 0 and < 1 | **required** | Share |",
            "| `strands` | whole number | >= 1 | `3` | Strands |",
-           "| `middle` | section: ring |  | none | Ring in the middle |",
-           "| `width` | length [m] | > 0 m; usually 0.001 m to 0.005 m | `0.002 m` | Width |",
+           "| `middle` | section |  | none | Ring in the middle |",
+           "| `width` | length [m] | > 0 m; usually 1 mm to 5 mm | `0.002 m` | Width |",
            "Exactly one of these keys (end):",
            "A plain value in place of this section stands for `width`.",
            "## `ring`\n\nA ring.\n\nKeys as in `middle`.",

@@ -50,7 +50,8 @@ struct Foam {
   Cells cells = Cells::closed;
   bool wet = true;
   std::string label;
-  std::filesystem::path table;
+  std::vector<std::string> tags;
+  std::filesystem::path table, results;
   Vec3<double> pull{{0, 0, 1}};
   std::vector<double> times;
   std::array<bool, 3> axes{true, false, true};
@@ -73,8 +74,12 @@ struct Foam {
         .by_default()
         .text("label", &Foam::label, "Label")
         .by_default("none")
+        .texts("tags", &Foam::tags, "Tags")
+        .by_default()
         .file("table", &Foam::table, "Table")
         .optional()
+        .path("results", &Foam::results, "Results")
+        .by_default("out")
         .quantities("pull", &Foam::pull, dimension::force, anything(), "Pull")
         .by_default()
         .quantities("times", &Foam::times, dimension::time, at_least(0), "Times")
@@ -142,6 +147,7 @@ yield: 2 kPa
 cells: open
 wet: false
 label: blue
+tags: [a, b]
 pull: "[1, 0, -2] N"
 times: [1 s, 20 ms]
 axes: [y]
@@ -159,6 +165,8 @@ faces:
   EXPECT_EQ(f.cells, Cells::open);
   EXPECT_FALSE(f.wet);
   EXPECT_EQ(f.label, "blue");
+  EXPECT_EQ(f.tags, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(foam("tags: a").tags, std::vector<std::string>{"a"});
   EXPECT_EQ(f.pull[0], 1.0);
   EXPECT_EQ(f.pull[2], -2.0);
   EXPECT_EQ(f.times, (std::vector<double>{1.0, 0.02}));
@@ -199,6 +207,8 @@ TEST(Schema, RefusesWrongValues) {
   EXPECT_EQ(problem_of("core: {parts: 2.0}").what, "`2.0` is not a whole number");
   EXPECT_EQ(problem_of("wet: yes").what, "`yes` is neither true nor false");
   EXPECT_EQ(problem_of("cells: opne").remedy, "did you mean `open`?");
+  EXPECT_EQ(problem_of("tags: [[a]]").what, "is a list; a text or a list of texts is due");
+  EXPECT_EQ(foam("axes: z").axes, (std::array<bool, 3>{false, false, true}));
   EXPECT_EQ(problem_of("axes: [x, w]").what, "`w` is not one of: x, y, z");
   EXPECT_EQ(problem_of("pull: [1 N, 2 N]").what, "has 2 values; 3 are due");
   EXPECT_EQ(problem_of("pull: [1 N, 2 N, 3]").where, "pull[3] (case.yaml:2)");
@@ -250,7 +260,9 @@ TEST(Schema, PathsAreRelativeToTheCaseFileAndMustExist) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "flow.csv") << "t,q\n";
   std::ofstream(folder / "case.yaml") << "density: 1 g/cm^3\ntable: flow.csv\n";
-  EXPECT_EQ(parse_file(Foam::schema(), folder / "case.yaml").value.table, folder / "flow.csv");
+  const Foam read = parse_file(Foam::schema(), folder / "case.yaml").value;
+  EXPECT_EQ(read.table, folder / "flow.csv");
+  EXPECT_EQ(read.results, folder / "out");
   const Origin origin{.name = "case.yaml", .folder = folder};
   const auto problems = problems_of("density: 1 g/cm^3\ntable: flwo.csv\n", origin);
   EXPECT_EQ(problems.at(0).remedy, "did you mean `flow.csv`?");
