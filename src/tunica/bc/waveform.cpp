@@ -280,16 +280,13 @@ std::optional<double> Waveform::period() const {
 }
 
 Waveform make_waveform(const WaveformInput& input) {
-  Waveform waveform = Waveform::constant(0.0);
-  if (const auto* constant = std::get_if<double>(&input.source)) {
-    waveform = Waveform::constant(*constant);
-  } else if (const auto* step = std::get_if<Step>(&input.source)) {
-    waveform = Waveform::step(*step);
-  } else {
+  const auto plain = [&input] {
+    if (const auto* constant = std::get_if<double>(&input.source)) return Waveform::constant(*constant);
+    if (const auto* step = std::get_if<Step>(&input.source)) return Waveform::step(*step);
     const auto& source = std::get<TableSource>(input.source);
-    waveform = Waveform::table(read_table(source.file), source.options, source.file.path.string());
-  }
-  return waveform.scaled(input.scale).ramped(input.ramp_time);
+    return Waveform::table(read_table(source.file), source.options, source.file.path.string());
+  };
+  return plain().scaled(input.scale).ramped(input.ramp_time);
 }
 
 }  // namespace tunica::bc

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -112,7 +113,8 @@ class Waveform {
   };
   using Shape = std::variant<Constant, Step, Polynomial, Fourier>;
 
-  explicit Waveform(Shape shape, std::string where) : shape_(std::move(shape)), where_(std::move(where)) {}
+  template <class S>  // in place: g++ 12 with sanitizers warns of moved variants
+  Waveform(S shape, std::string where) : shape_(std::in_place_type<S>, std::move(shape)), where_(std::move(where)) {}
   static Fourier fourier(const std::vector<double>& times, const std::vector<double>& values, int modes);
   double evaluate(const Polynomial& polynomial, double t) const;
 
