@@ -39,8 +39,8 @@
 namespace tunica::wall {
 
 /// Default of the stabilisation constant c. On the inflated incompressible thick cylinder (inner radius + 15 %), two to
-/// four isotropic elements through the wall, radius and hoop stress hardly depend on c from 0.03 to 1, while the pressure
-/// scatters by 8 % of the load at 0.03 and below 1 % from 0.3 on.
+/// four isotropic elements through the wall, radius and hoop stress hardly depend on c from 0.03 to 1, while the
+/// pressure scatters by 8 % of the load at 0.03 and below 1 % from 0.3 on.
 inline constexpr double default_stabilisation = 0.3;
 
 /// What the element needs besides the law.
