@@ -1,0 +1,75 @@
+// tunica picture: a PNG of results.
+#include "tunica/stages/picture.hpp"
+
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+
+namespace tunica::app {
+namespace {
+
+/// What CLI11 fills, before it becomes PictureOptions.
+struct Arguments {
+  stages::PictureOptions options;
+  double time = 0.0;
+  int component = 0;
+  std::array<double, 2> limits{};
+  std::array<int, 2> size{1200, 800};
+  std::array<double, 6> clip{};
+  std::array<double, 3> view{-1.0, -1.5, 0.8}, up{0.0, 0.0, 1.0};
+};
+
+Vec3<double> vector(const double* x) { return {{x[0], x[1], x[2]}}; }
+
+void picture(const CLI::App& command, const Arguments& arguments) {
+  stages::PictureOptions options = arguments.options;
+  if (command.count("--time")) options.time = arguments.time;
+  if (command.count("--component")) options.component = arguments.component;
+  if (command.count("--range")) options.limits = arguments.limits;
+  if (command.count("--clip"))
+    options.clip = stages::ClipPlane{vector(arguments.clip.data()), vector(arguments.clip.data() + 3)};
+  options.view = vector(arguments.view.data());
+  options.up = vector(arguments.up.data());
+  options.width = arguments.size[0];
+  options.height = arguments.size[1];
+  const auto summary = stages::render(options);
+  std::printf("%s: ", options.output.c_str());
+  if (summary.time) std::printf("t = %g s, ", *summary.time);
+  if (options.array.empty()) {
+    std::printf("no colours\n");
+  } else {
+    std::printf("%s from %g to %g\n", options.array.c_str(), summary.limits[0], summary.limits[1]);
+  }
+}
+
+}  // namespace
+
+void add_picture(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("picture", "Draw results or meshes as a PNG, without a screen");
+  command->footer(
+      "Needs an X display, which xvfb-run provides. Example:\n"
+      "  xvfb-run -a tunica picture results/lumen.pvd --array pressure --clip 0 0 0 0 -1 0 -o pressure.png");
+  const auto a = std::make_shared<Arguments>();
+  auto& o = a->options;
+  command->add_option("files", o.inputs, "Time series (.pvd) or meshes (.vtu, .pvtu, .vtp, .pvtp), drawn together")
+      ->required();
+  command->add_option("-o,--output", o.output, "The picture, ending in .png")->required();
+  command->add_option("--time", a->time, "Step of a series nearest to this time; default: the last");
+  command->add_option("--array", o.array, "Point or cell array to colour by; default: none");
+  command->add_option("--component", a->component, "Of a vector array, 0 1 2; default: the magnitude");
+  command->add_option("--scale", o.scale, "Factor on the values, for another unit");
+  command->add_option("--label", o.label, "Of the colour bar; default: the name of the array");
+  command->add_option("--range", a->limits, "Lowest and highest value of the colour bar; default: those in sight");
+  command->add_option("--title", o.title, "Text above the picture");
+  command->add_option("--clip", a->clip, "Cut away one side of a plane: point x y z, direction of that side x y z");
+  command->add_option("--warp", o.warp, "Vector array by which points are moved");
+  command->add_option("--warp-factor", o.warp_factor, "Factor on that vector");
+  command->add_option("--view", a->view, "Direction from the scene to the camera, x y z");
+  command->add_option("--up", a->up, "Direction that points up in the picture, x y z");
+  command->add_option("--size", a->size, "Width and height in pixels");
+  command->add_flag("--edges", o.edges, "Draw the edges of the elements");
+  command->callback([command, a] { picture(*command, *a); });
+}
+
+}  // namespace tunica::app
