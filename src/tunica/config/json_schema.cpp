@@ -12,10 +12,12 @@ using Json = nlohmann::ordered_json;
 
 Json object_of(const Description& d);
 
+// A unit begins with no digit, exponent or sign, so that a bare number does not match.
+constexpr const char* number_with_unit = "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*(1?/\\s*)?[^0-9eE.\\s+/-]";
+
 Json quantity(const Field& f) {
   if (f.dimension != dimension::none)
-    return {
-        {"type", "string"}, {"pattern", "^[-+]?([0-9]|\\.[0-9]).*[^0-9. ]"}, {"examples", {in_si(1.0, f.dimension)}}};
+    return {{"type", "string"}, {"pattern", number_with_unit}, {"examples", {in_si(1.0, f.dimension)}}};
   Json number = {{"type", "number"}};
   if (f.allowed.low > -std::numeric_limits<double>::infinity())
     number[f.allowed.low_open ? "exclusiveMinimum" : "minimum"] = f.allowed.low;
@@ -47,8 +49,10 @@ Json value_of(const Field& f) {
       return {{"type", "string"}, {"enum", f.names}};
     case Kind::texts:
       return {{"anyOf", {Json{{"type", "string"}}, list_of({{"type", "string"}}, 0)}}};
-    case Kind::any_of:
-      return list_of({{"type", "string"}, {"enum", f.names}}, 0);
+    case Kind::any_of: {
+      const Json name = {{"type", "string"}, {"enum", f.names}};
+      return {{"anyOf", {name, list_of(name, 0)}}};
+    }
     case Kind::section:
       return object_of(*f.nested);
     case Kind::map:

@@ -51,10 +51,10 @@ class Reader {
     collect(description, object, levels);
     const auto entries = entries_of(description, node, path, line);
     if (!entries) return;
-    refuse_unknown(*entries, levels, path);
+    const bool all_known = refuse_unknown(*entries, levels, path);
     for (const Level& level : levels) {
       if (level.description->one_of)
-        read_one_of(level, *entries, path, line);
+        read_one_of(level, *entries, path, line, all_known);
       else
         read_fields(level, *entries, path, line);
     }
@@ -112,17 +112,21 @@ class Reader {
     return entries;
   }
 
-  void refuse_unknown(const std::vector<Entry>& entries, const std::vector<Level>& levels, const std::string& path) {
+  /// Returns whether there are none.
+  bool refuse_unknown(const std::vector<Entry>& entries, const std::vector<Level>& levels, const std::string& path) {
     std::vector<std::string> known;
     for (const Level& level : levels)
       for (const Field& field : level.description->fields) known.push_back(field.key);
+    bool all_known = true;
     for (const Entry& entry : entries) {
       if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
       const std::string meant = nearest(entry.key, known);
       std::string remedy = known.empty() ? "this section has no keys" : "keys here: " + join(known);
       if (!meant.empty()) remedy = fmt::format("did you mean `{}`?", meant);
+      all_known = false;
       error(below(path, entry.key), entry.line, fmt::format("`{}` is not known here", entry.key), remedy);
     }
+    return all_known;
   }
 
   static const Entry* find(const std::vector<Entry>& entries, const std::string& key) {
@@ -130,13 +134,15 @@ class Reader {
     return at == entries.end() ? nullptr : &*at;
   }
 
-  void read_one_of(const Level& level, const std::vector<Entry>& entries, const std::string& path, int line) {
+  /// An unknown key was reported already; that none of the known ones is there then needs no second message.
+  void read_one_of(const Level& level, const std::vector<Entry>& entries, const std::string& path, int line,
+                   bool all_known) {
     std::vector<std::string> all, present;
     for (const Field& field : level.description->fields) {
       all.push_back(field.key);
       if (find(entries, field.key)) present.push_back(field.key);
     }
-    if (present.size() != 1) {
+    if (present.size() > 1 || (present.empty() && all_known)) {
       error(path, line,
             present.empty() ? fmt::format("lacks its {}", level.description->name)
                             : fmt::format("has {} of {} that exclude each other: {}", present.size(),

@@ -1,0 +1,39 @@
+// Command line of tunica. Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.
+#include <cstdio>
+#include <exception>
+
+#include "commands.hpp"
+#include "tunica/base/error.hpp"
+
+namespace {
+
+constexpr int input_error = 2, solver_failure = 3;
+
+int fail(int code, const std::exception& error) {
+  std::fprintf(stderr, "tunica: %s\n", error.what());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Fluid-structure interaction in aortic dissection.", "tunica");
+  app.set_version_flag("--version", TUNICA_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.\n"
+      "More about a subcommand: tunica <subcommand> --help");
+  tunica::app::add_check(app);
+  tunica::app::add_picture(app);
+  tunica::app::add_schema(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : input_error;
+  } catch (const tunica::InputError& error) {
+    return fail(input_error, error);
+  } catch (const std::exception& error) {
+    return fail(solver_failure, error);
+  }
+  return 0;
+}

@@ -1,0 +1,25 @@
+// tunica schema: the reference of the case file.
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "tunica/stages/case.hpp"
+
+namespace tunica::app {
+
+void add_schema(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("schema", "Print the reference of the case file");
+  command->footer(
+      "Examples:\n  tunica schema > case-file.md\n  tunica schema --json > tunica.schema.json\n"
+      "An editor that knows YAML completes and checks case files that begin with the line\n"
+      "  # yaml-language-server: $schema=tunica.schema.json");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "As JSON Schema instead of Markdown");
+  command->callback([json] {
+    const auto schema = stages::Case::schema();
+    const config::Description& description = *schema.description();
+    std::fputs((*json ? config::json_schema(description) : config::markdown(description)).c_str(), stdout);
+  });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,286 @@
+#include "tunica/stages/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tunica/bc/waveform.hpp"
+
+namespace tunica::stages {
+
+using config::Problems;
+using config::Schema;
+namespace dimension = config::dimension;
+
+namespace {
+
+// --- what is computed ---------------------------------------------------------------------------------------------
+
+Schema<StaticWall> static_wall_schema() {
+  return Schema<StaticWall>("static_wall", "Wall alone, in equilibrium with its loads.")
+      .integer("load_steps", &StaticWall::load_steps, config::range(1, 100000),
+               "Equal steps in which loads are applied")
+      .by_default()
+      .quantity("load_time", &StaticWall::load_time, dimension::time, config::at_least(0),
+                "Loads that vary in time are those of this time")
+      .by_default();
+}
+
+Schema<Analysis> analysis_schema() {
+  return Schema<Analysis>("analysis", "What is computed.")
+      .one_of()
+      .alternative(Schema<FluidStructure>("fsi", "Blood and wall, coupled."))
+      .alternative(Schema<RigidFlow>("flow", "Blood in a rigid wall."))
+      .alternative(Schema<DynamicWall>("wall", "Wall alone, with inertia."))
+      .alternative(static_wall_schema());
+}
+
+std::string name(const Analysis& analysis) { return analysis_schema().description()->fields[analysis.index()].key; }
+
+// --- meshes -------------------------------------------------------------------------------------------------------
+
+Schema<RegionMesh> region_mesh_schema() {
+  return Schema<RegionMesh>("mesh", "Mesh of one region.")
+      .folder("simvascular", &RegionMesh::simvascular, "`mesh-complete` folder as exported by SimVascular");
+}
+
+Schema<mesh::RegionKind> region_kind_schema() {
+  return Schema<mesh::RegionKind>("region", "A region of the mesh.")
+      .choice(
+          "kind", [](mesh::RegionKind& kind) -> mesh::RegionKind& { return kind; },
+          {{"lumen", mesh::RegionKind::lumen}, {"wall", mesh::RegionKind::wall}}, "Filled with blood, or solid")
+      .shorthand("kind");
+}
+
+Schema<GmshMesh> gmsh_schema() {
+  return Schema<GmshMesh>("gmsh", "Gmsh file, version 4.1.")
+      .file("file", &GmshMesh::file, "The .msh file; volumes and boundary surfaces belong to named physical groups")
+      .map("regions", &GmshMesh::regions, region_kind_schema(), "Every physical volume, by its name")
+      .check([](const GmshMesh& gmsh, Problems& problems) {
+        if (gmsh.regions.empty())
+          problems.add("regions", "names no region", "write `<physical volume>: lumen` or `wall`");
+        const auto lumens = std::count_if(gmsh.regions.begin(), gmsh.regions.end(),
+                                          [](const auto& r) { return r.second == mesh::RegionKind::lumen; });
+        if (lumens > 1)
+          problems.add("regions", fmt::format("names {} lumens", lumens), "join them to one physical volume");
+      });
+}
+
+Schema<mesh::TubeSizes> tube_schema() {
+  using mesh::TubeSizes;
+  return Schema<TubeSizes>("tube",
+                           "Straight round tube along z that tunica meshes itself: faces lumen_inlet, lumen_outlet, "
+                           "lumen_wall, and with a wall wall_inlet, wall_outlet, wall_inner, wall_outer.")
+      .quantity("radius", &TubeSizes::radius, dimension::length, config::above(0), "Radius of the lumen")
+      .quantity("length", &TubeSizes::length, dimension::length, config::above(0), "Length")
+      .quantity("wall_thickness", &TubeSizes::wall_thickness, dimension::length, config::at_least(0), "0: no wall")
+      .by_default()
+      .integer("cells_around", &TubeSizes::cells_around, config::range(4, 10000), "Multiple of 4")
+      .by_default()
+      .integer("cells_radial", &TubeSizes::cells_radial, config::range(1, 10000),
+               "Between the square core and the wall")
+      .by_default()
+      .integer("cells_along", &TubeSizes::cells_along, config::range(1, 100000), "Along the tube")
+      .by_default()
+      .integer("cells_through_wall", &TubeSizes::cells_through_wall, config::range(1, 1000), "Through the wall")
+      .by_default()
+      .check([](const TubeSizes& tube, Problems& problems) {
+        if (tube.cells_around % 4 != 0)
+          problems.add("cells_around", fmt::format("is {}, no multiple of 4", tube.cells_around),
+                       fmt::format("write {}", tube.cells_around / 4 * 4 + 4));
+      });
+}
+
+Schema<InterfaceSettings> interface_schema() {
+  return Schema<InterfaceSettings>("interface", "Surface that lumen and wall have in common.")
+      .texts("lumen", &InterfaceSettings::lumen_faces, "Face or faces of the lumen")
+      .texts("wall", &InterfaceSettings::wall_faces, "Face or faces of the wall that coincide with them")
+      .number("tolerance", &InterfaceSettings::tolerance, config::between(0, 0.5),
+              "Largest distance of two nodes that are taken as one, as a share of the shortest edge there")
+      .by_default();
+}
+
+void check_meshes(const MeshSettings& m, Problems& problems) {
+  const int sources = (m.lumen || m.wall) + m.gmsh.has_value() + m.tube.has_value();
+  if (sources != 1) {
+    problems.add("", sources == 0 ? "no mesh is given" : "meshes from more than one source are given",
+                 "give `lumen` and/or `wall`, or `gmsh`, or `tube`");
+  }
+  const bool files = m.lumen || m.wall || m.gmsh;
+  if (files && !m.metres_per_unit)
+    problems.add("", "`length_unit` is missing: unit of the coordinates in the mesh files",
+                 "add `length_unit: mm`, cm or m");
+  if (!files && m.metres_per_unit)
+    problems.add("length_unit", "is given, but no mesh is read from a file",
+                 "remove it: the sizes have their own units");
+}
+
+// --- output -------------------------------------------------------------------------------------------------------
+
+struct OutputUnit {
+  const char* key;
+  std::string OutputUnits::*member;
+  config::Dimension due;
+  const char* help;
+};
+constexpr OutputUnit output_units[] = {
+    {"length", &OutputUnits::length, dimension::length,
+     "Coordinates, displacement; squared and cubed for area and volume"},
+    {"time", &OutputUnits::time, dimension::time, "Time"},
+    {"velocity", &OutputUnits::velocity, dimension::velocity, "Velocity"},
+    {"pressure", &OutputUnits::pressure, dimension::pressure, "Pressure"},
+    {"stress", &OutputUnits::stress, dimension::pressure, "Stress and traction"},
+    {"flow", &OutputUnits::flow, dimension::volume_flow, "Volume flow"},
+};
+
+// --- the whole ----------------------------------------------------------------------------------------------------
+
+struct Part {
+  const char* key;
+  bool wanted, present;
+  const char* remedy;  ///< when it is wanted and missing
+};
+
+void check_case(const Case& c, Problems& problems) {
+  const bool coupled = c.solves_fluid() && c.solves_wall(),
+             static_wall = std::holds_alternative<StaticWall>(c.analysis);
+  const std::string analysis = name(c.analysis);
+  const Part parts[] = {
+      {"fluid", c.solves_fluid(), c.fluid.has_value(), "add `fluid:`; with `{}` it has the usual values of blood"},
+      {"wall", c.solves_wall(), c.wall.has_value(), "add `wall:` with density and material"},
+      {"mesh_motion", coupled, coupled || c.mesh_motion.has_value(), ""},
+      {"time", !static_wall, c.time.has_value(), "add `time: {step: 1 ms, steps: 100}`"},
+      {"meshes.lumen", c.solves_fluid(), c.meshes.has_lumen(), "give a mesh of the lumen"},
+      {"meshes.wall", c.solves_wall(), c.meshes.has_wall(), "give a mesh of the wall"},
+      {"meshes.interface", coupled, c.meshes.interface.has_value(),
+       "name the surface that both have in common: `interface: {lumen: <face>, wall: <face>}`"},
+  };
+  for (const Part& part : parts) {
+    if (part.wanted && !part.present)
+      problems.add(part.key, fmt::format("is missing, but `analysis: {}` needs it", analysis), part.remedy);
+    if (!part.wanted && part.present)
+      problems.add(part.key, fmt::format("is given, but `analysis: {}` does not use it", analysis),
+                   "remove it, or choose another analysis");
+  }
+  if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
+}
+
+/// Tables that do not read or make no waveform, each named by its place in the case file.
+std::vector<Problem> check_waveforms(const Case& c) {
+  std::vector<Problem> found;
+  for (const auto& [face, condition] : c.boundary) {
+    const std::string where = "boundary." + face;
+    try {
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) bc::inflow(*flow);
+      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) bc::make_waveform(pressure->pressure);
+      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) bc::make_waveform(velocity->course);
+      if (const auto* traction = std::get_if<bc::Traction>(&condition)) bc::make_waveform(traction->course);
+    } catch (const InputError& error) {
+      for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
+    }
+  }
+  return found;
+}
+
+config::Parsed<Case> parse(const std::string& yaml, const std::filesystem::path& file, bool check_files) {
+  const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = check_files};
+  config::Parsed<Case> parsed = config::parse_text(Case::schema(), yaml, origin);
+  Case& c = parsed.value;
+  if (c.solves_fluid() && c.solves_wall() && !c.mesh_motion) c.mesh_motion.emplace();
+  return parsed;
+}
+
+}  // namespace
+
+bool MeshSettings::has_lumen() const {
+  if (!gmsh) return lumen || tube;
+  return std::any_of(gmsh->regions.begin(), gmsh->regions.end(),
+                     [](const auto& region) { return region.second == mesh::RegionKind::lumen; });
+}
+
+bool MeshSettings::has_wall() const {
+  if (!gmsh) return wall || (tube && tube->wall_thickness > 0);
+  return std::any_of(gmsh->regions.begin(), gmsh->regions.end(),
+                     [](const auto& region) { return region.second == mesh::RegionKind::wall; });
+}
+
+Schema<MeshSettings> MeshSettings::schema() {
+  return Schema<MeshSettings>("meshes",
+                              "Meshes of the regions: `lumen` and/or `wall`, each in its own files, or `gmsh` with all "
+                              "regions in one file, or `tube`.")
+      .unit("length_unit", &MeshSettings::metres_per_unit, dimension::length,
+            "Unit of the coordinates in the mesh files; needed when there are any")
+      .section("lumen", &MeshSettings::lumen, region_mesh_schema(), "Region filled with blood")
+      .section("wall", &MeshSettings::wall, region_mesh_schema(), "Solid region")
+      .section("gmsh", &MeshSettings::gmsh, gmsh_schema(), "All regions in one file")
+      .section("tube", &MeshSettings::tube, tube_schema(), "A tube without files")
+      .section("interface", &MeshSettings::interface, interface_schema(),
+               "Where lumen and wall meet; needed for fluid-structure interaction")
+      .check(check_meshes);
+}
+
+Schema<OutputUnits> OutputUnits::schema() {
+  Schema<OutputUnits> schema("units", "Units of results.");
+  for (const OutputUnit& unit : output_units) schema.text(unit.key, unit.member, unit.help).by_default();
+  return schema.check([](const OutputUnits& units, Problems& problems) {
+    for (const OutputUnit& unit : output_units) {
+      const auto factor = config::parse_unit(units.*unit.member, unit.due);
+      if (const auto* error = std::get_if<config::UnitError>(&factor))
+        problems.add(unit.key, error->what, error->remedy);
+    }
+  });
+}
+
+Schema<OutputSettings> OutputSettings::schema() {
+  return Schema<OutputSettings>("output", "Where, how often and in which units results are written.")
+      .path("directory", &OutputSettings::directory, "Folder of the results, relative to that of the case file")
+      .by_default("results")
+      .integer("every", &OutputSettings::every, config::range(1, 1e9), "Steps between two fields of the time series")
+      .by_default()
+      .integer("checkpoint_every", &OutputSettings::checkpoint_every, config::range(1, 1e9),
+               "Steps between two checkpoints; one is also written at the end and when a run is interrupted")
+      .by_default()
+      .section("units", &OutputSettings::units, OutputUnits::schema(), "Units of fields and histories")
+      .by_default();
+}
+
+bool Case::solves_fluid() const {
+  return std::holds_alternative<FluidStructure>(analysis) || std::holds_alternative<RigidFlow>(analysis);
+}
+
+bool Case::solves_wall() const { return !std::holds_alternative<RigidFlow>(analysis); }
+
+Schema<Case> Case::schema() {
+  return Schema<Case>("tunica case",
+                      "A case file is YAML. Every dimensional value has its unit: `125 mmHg`, `0.04 dyn s/cm^2`, "
+                      "`0.2 ms`. Unknown keys are errors. File names are relative to the folder of the case file.")
+      .text("title", &Case::title, "Free text for logs and reports")
+      .by_default()
+      .section("analysis", &Case::analysis, analysis_schema(), "What is computed")
+      .section("meshes", &Case::meshes, MeshSettings::schema(), "Geometry")
+      .section("fluid", &Case::fluid, fluid::Parameters::schema(), "Blood; for `fsi` and `flow`")
+      .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")
+      .section("mesh_motion", &Case::mesh_motion, ale::Parameters::schema(),
+               "How the mesh of the lumen follows the wall; for `fsi`, with its defaults when left out")
+      .map("boundary", &Case::boundary, bc::condition_schema(),
+           "The condition of every face except the interface, by the name of the face")
+      .section("time", &Case::time, coupling::TimeSettings::schema(), "Time stepping; for all but `static_wall`")
+      .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
+      .by_default()
+      .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")
+      .by_default()
+      .section("output", &Case::output, OutputSettings::schema(), "Results")
+      .by_default()
+      .check(check_case);
+}
+
+config::Parsed<Case> read_case(const std::filesystem::path& file) {
+  config::Parsed<Case> parsed = parse(config::read_text(file), file, true);
+  std::vector<Problem> problems = check_waveforms(parsed.value);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return parsed;
+}
+
+Case parse_case(const std::string& yaml, const std::filesystem::path& file) { return parse(yaml, file, false).value; }
+
+}  // namespace tunica::stages

@@ -1,0 +1,112 @@
+// The case file: everything that a run is told. Composed of the parameter structs of the other folders, each of which
+// declares its own keys; `tunica schema` prints them all.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tunica/ale/parameters.hpp"
+#include "tunica/bc/conditions.hpp"
+#include "tunica/config/schema.hpp"
+#include "tunica/coupling/settings.hpp"
+#include "tunica/fluid/parameters.hpp"
+#include "tunica/mesh/generate.hpp"
+#include "tunica/mesh/mesh_data.hpp"
+#include "tunica/wall/parameters.hpp"
+
+namespace tunica::stages {
+
+// --- what is computed ---------------------------------------------------------------------------------------------
+
+struct FluidStructure {};  ///< blood and wall, coupled
+struct RigidFlow {};       ///< blood in a rigid wall
+struct DynamicWall {};     ///< wall alone, with inertia
+/// Wall alone, in equilibrium with the loads of one time, which are applied in equal steps.
+struct StaticWall {
+  int load_steps = 10;
+  double load_time = 0.0;  ///< s
+};
+using Analysis = std::variant<FluidStructure, RigidFlow, DynamicWall, StaticWall>;
+
+// --- meshes -------------------------------------------------------------------------------------------------------
+
+/// A region whose mesh was exported by SimVascular.
+struct RegionMesh {
+  std::filesystem::path simvascular;  ///< the mesh-complete folder
+};
+
+/// Several regions in one Gmsh file.
+struct GmshMesh {
+  std::filesystem::path file;
+  std::map<std::string, mesh::RegionKind> regions;  ///< by the name of the physical volume
+};
+
+/// The surface that lumen and wall have in common.
+struct InterfaceSettings {
+  std::vector<std::string> lumen_faces, wall_faces;
+  double tolerance = 1e-3;  ///< distance of two nodes of a pair, as a share of the shortest edge there
+};
+
+/// Exactly one of `lumen` and/or `wall`, `gmsh`, `tube` is given.
+struct MeshSettings {
+  std::optional<double> metres_per_unit;  ///< of the coordinates in files; present when there are files
+  std::optional<RegionMesh> lumen, wall;
+  std::optional<GmshMesh> gmsh;
+  std::optional<mesh::TubeSizes> tube;
+  std::optional<InterfaceSettings> interface;  ///< present for fluid-structure interaction
+
+  bool has_lumen() const;
+  bool has_wall() const;
+  static config::Schema<MeshSettings> schema();
+};
+
+// --- output -------------------------------------------------------------------------------------------------------
+
+/// Names of units that results are written in, for headers and labels; config::unit_factor gives their SI values.
+struct OutputUnits {
+  std::string length = "mm", time = "s", velocity = "m/s", pressure = "mmHg", stress = "kPa", flow = "ml/s";
+  static config::Schema<OutputUnits> schema();
+};
+
+struct OutputSettings {
+  std::filesystem::path directory;      ///< created when it does not exist
+  std::int64_t every = 1;               ///< steps between two fields of the time series
+  std::int64_t checkpoint_every = 100;  ///< steps between two checkpoints
+  OutputUnits units;
+  static config::Schema<OutputSettings> schema();
+};
+
+// --- the whole ----------------------------------------------------------------------------------------------------
+
+/// Which of the optional parts are present follows from the analysis; the schema checks it.
+struct Case {
+  std::string title;
+  Analysis analysis;
+  MeshSettings meshes;
+  std::optional<fluid::Parameters> fluid;
+  std::optional<wall::Parameters> wall;
+  std::optional<ale::Parameters> mesh_motion;  ///< for fluid-structure interaction; always present there
+  std::vector<std::pair<std::string, bc::Condition>> boundary;  ///< face name, condition, as in the file
+  std::optional<coupling::TimeSettings> time;                   ///< all but static walls
+  coupling::NewtonSettings newton;
+  coupling::LinearSettings linear;
+  OutputSettings output;
+
+  bool solves_fluid() const;
+  bool solves_wall() const;
+  static config::Schema<Case> schema();
+};
+
+/// Reads and validates a case file without its meshes; tables of waveforms are read and checked, too. Throws
+/// InputError with all problems. Not collective: call it on one rank, and `parse_case` on the others.
+config::Parsed<Case> read_case(const std::filesystem::path& file);
+
+/// The same from the text of a case file that one rank has read; looks at no files.
+Case parse_case(const std::string& yaml, const std::filesystem::path& file);
+
+}  // namespace tunica::stages
