@@ -52,6 +52,7 @@ struct Layer {
   vtkSmartPointer<vtkPointSet> data;
   vtkSmartPointer<vtkPolyData> surface;
   bool coloured = false;
+  std::string array = {};  ///< full name of what it is coloured by
 };
 
 void check(const PictureOptions& options) {
@@ -107,6 +108,16 @@ std::string array_names(const std::vector<Layer>& layers) {
   return text.empty() ? "none" : text;
 }
 
+/// Full name of the array that `wanted` means: that name, or that name followed by a unit, "pressure" for
+/// "pressure [mmHg]". Empty if there is none.
+std::string full_name(vtkFieldData& fields, const std::string& wanted) {
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    const std::string name = fields.GetArrayName(i) ? fields.GetArrayName(i) : "";
+    if (!wanted.empty() && (name == wanted || name.starts_with(wanted + " ["))) return name;
+  }
+  return "";
+}
+
 Layer read_layer(const std::string& file) {
   vtkNew<vtkXMLGenericDataObjectReader> reader;
   reader->SetFileName(file.c_str());
@@ -114,16 +125,17 @@ Layer read_layer(const std::string& file) {
   auto* data = vtkPointSet::SafeDownCast(reader->GetOutput());
   if (!data || data->GetNumberOfPoints() == 0)
     throw InputError(file, "holds no points, or is no VTK XML mesh", "give .vtu, .pvtu, .vtp, .pvtp or .pvd files");
-  return {file, data, nullptr};
+  return {.file = file, .data = data, .surface = nullptr};
 }
 
 /// Moves, cuts and skins the data of a layer.
 void make_surface(Layer& layer, const PictureOptions& options) {
   vtkSmartPointer<vtkDataSet> data = layer.data;
-  if (!options.warp.empty() && layer.data->GetPointData()->HasArray(options.warp.c_str())) {
+  const std::string vector = full_name(*layer.data->GetPointData(), options.warp);
+  if (!vector.empty()) {
     vtkNew<vtkWarpVector> warp;
     warp->SetInputData(data);
-    warp->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.warp.c_str());
+    warp->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vector.c_str());
     warp->SetScaleFactor(options.warp_factor);
     warp->Update();
     data = vtkDataSet::SafeDownCast(warp->GetOutputDataObject(0));
@@ -151,11 +163,12 @@ void make_surface(Layer& layer, const PictureOptions& options) {
 /// Replaces the active scalars of the surface by the wanted component or magnitude, scaled; false without the array.
 bool set_scalars(Layer& layer, const PictureOptions& options) {
   vtkDataSetAttributes* fields = layer.surface->GetPointData();
-  auto* source = fields->GetArray(options.array.c_str());
-  if (!source) {
+  layer.array = full_name(*fields, options.array);
+  if (layer.array.empty()) {
     fields = layer.surface->GetCellData();
-    source = fields->GetArray(options.array.c_str());
+    layer.array = full_name(*fields, options.array);
   }
+  auto* source = layer.array.empty() ? nullptr : fields->GetArray(layer.array.c_str());
   if (!source) return false;
   const int components = source->GetNumberOfComponents();
   if (options.component && (*options.component < 0 || *options.component >= components))
@@ -184,7 +197,7 @@ bool set_scalars(Layer& layer, const PictureOptions& options) {
 std::vector<Layer> make_layers(const std::vector<std::string>& files, const PictureOptions& options) {
   std::vector<Layer> layers;
   for (const auto& file : files) layers.push_back(read_layer(file));
-  const auto warped = [&](const Layer& layer) { return layer.data->GetPointData()->HasArray(options.warp.c_str()); };
+  const auto warped = [&](const Layer& layer) { return !full_name(*layer.data->GetPointData(), options.warp).empty(); };
   if (!options.warp.empty() && std::none_of(layers.begin(), layers.end(), warped))
     throw InputError("picture", fmt::format("no input has a point array '{}' to warp by", options.warp),
                      "arrays that exist: " + array_names(layers));
@@ -198,7 +211,9 @@ std::vector<Layer> make_layers(const std::vector<std::string>& files, const Pict
     throw InputError("picture", fmt::format("no input has an array '{}' to colour by", options.array),
                      "arrays that exist: " + array_names(layers));
   std::erase_if(layers, [](const Layer& layer) { return layer.surface->GetNumberOfCells() == 0; });
-  if (layers.empty()) throw InputError("picture clip", "the plane cuts everything away", "move or turn the plane");
+  const auto in_sight = [&](const Layer& layer) { return layer.coloured || options.array.empty(); };
+  if (std::none_of(layers.begin(), layers.end(), in_sight))
+    throw InputError("picture clip", "the plane cuts everything away", "move or turn the plane");
   return layers;
 }
 
@@ -305,10 +320,12 @@ void style_text(vtkTextProperty* text, int size) {
   text->ShadowOff();
 }
 
-void add_colour_bar(vtkRenderer& frame, const PictureOptions& options, vtkLookupTable* table) {
+void add_colour_bar(vtkRenderer& frame, const std::vector<Layer>& layers, const PictureOptions& options,
+                    vtkLookupTable* table) {
+  const auto coloured = std::find_if(layers.begin(), layers.end(), [](const Layer& layer) { return layer.coloured; });
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(table);
-  bar->SetTitle((options.label.empty() ? options.array : options.label).c_str());
+  bar->SetTitle((options.label.empty() && coloured != layers.end() ? coloured->array : options.label).c_str());
   bar->SetNumberOfLabels(6);
   bar->SetLabelFormat("%.4g");
   bar->UnconstrainedFontSizeOn();
@@ -372,7 +389,7 @@ PictureSummary render(const PictureOptions& options) {
   if (!options.array.empty()) {
     summary.limits = colour_limits(layers, options);
     table = colour_table(summary.limits);
-    add_colour_bar(*frame, options, table);
+    add_colour_bar(*frame, layers, options, table);
   }
   add_title(*frame, options, summary.time);
   add_actors(*scene, layers, options, table);

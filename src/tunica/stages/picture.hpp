@@ -20,10 +20,10 @@ struct PictureOptions {
   std::string output;               ///< .png
   std::optional<double> time;       ///< of a series: the step nearest to this time is drawn; default: the last one
 
-  std::string array;                            ///< point or cell array to colour by; empty: plain surfaces
-  std::optional<int> component;                 ///< of a vector array, from 0; default: the magnitude
-  double scale = 1.0;                           ///< factor on the values, for another unit
-  std::string label;                            ///< of the colour bar; default: name of the array
+  std::string array;             ///< point or cell array to colour by, with or without its unit; empty: plain
+  std::optional<int> component;  ///< of a vector array, from 0; default: the magnitude
+  double scale = 1.0;            ///< factor on the values, for another unit
+  std::string label;             ///< of the colour bar; default: name of the array with its unit
   std::optional<std::array<double, 2>> limits;  ///< of the colour bar, after scaling; default: the values in sight
 
   std::string title;              ///< default: none. The time is added for a series

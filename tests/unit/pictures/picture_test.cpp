@@ -38,7 +38,7 @@ class Picture : public testing::Test {
     vtkNew<vtkPoints> points;
     vtkNew<vtkDoubleArray> pressure, displacement;
     pressure->SetName("pressure");
-    displacement->SetName("displacement");
+    displacement->SetName("displacement [mm]");
     displacement->SetNumberOfComponents(3);
     for (int i = 0; i < 27; ++i) {
       points->InsertNextPoint(i % 3, i / 3 % 3, i / 9);
@@ -170,7 +170,7 @@ TEST_F(Picture, NamesTheArraysThatExist) {
     render(options);
     FAIL() << "an unknown array was accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("displacement, pressure"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("displacement [mm], pressure"), std::string::npos) << error.what();
   }
   options.array = "pressure";
   options.warp = "velocity";
