@@ -1,0 +1,73 @@
+// The documents keep step with the program: the case file of the README is valid, and equations that the code cites
+// exist.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "tunica/base/error.hpp"
+#include "tunica/stages/case.hpp"
+
+namespace tunica {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = TUNICA_SOURCE_DIR;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Documents, CaseFileOfTheReadmeIsValid) {
+  const std::string readme = read(root / "README.md");
+  const std::string fence = "```yaml\n";
+  const auto begin = readme.find(fence);
+  ASSERT_NE(begin, std::string::npos);
+  const auto text = begin + fence.size();
+  const std::string yaml = readme.substr(text, readme.find("```", text) - text);
+  try {
+    const stages::Case parsed = stages::parse_case(yaml, root / "README.md");
+    EXPECT_TRUE(parsed.solves_fluid() && parsed.solves_wall());
+  } catch (const InputError& error) {
+    FAIL() << error.what();
+  }
+}
+
+TEST(Documents, CitedEquationsExist) {
+  std::set<std::string> equations;
+  const std::string theory = read(root / "docs" / "theory.md");
+  const std::regex tag(R"(\\tag\{([0-9]\.[0-9]+)\})");
+  for (std::sregex_iterator i(theory.begin(), theory.end(), tag), end; i != end; ++i) {
+    EXPECT_TRUE(equations.insert((*i)[1]).second) << "docs/theory.md has two equations " << (*i)[1];
+  }
+  ASSERT_FALSE(equations.empty());
+
+  const std::regex comment("//.*"), citation(R"((?:[ ,]|eqs?\.? )\(([1-8]\.[0-9]{1,2})\))");
+  int cited = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
+    if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    int number = 0;
+    for (std::string line; std::getline(file, line);) {
+      ++number;
+      std::smatch found;
+      if (!std::regex_search(line, found, comment)) continue;
+      const std::string text = found.str();
+      for (std::sregex_iterator i(text.begin(), text.end(), citation), end; i != end; ++i) {
+        ++cited;
+        EXPECT_TRUE(equations.contains((*i)[1]))
+            << entry.path() << ":" << number << ": docs/theory.md has no equation (" << (*i)[1] << ")";
+      }
+    }
+  }
+  EXPECT_GT(cited, 5);
+}
+
+}  // namespace
+}  // namespace tunica
