@@ -8,6 +8,11 @@ namespace tunica::assembly {
 
 namespace {
 
+struct Selection {
+  std::optional<mesh::RegionKind> kind;  // none: all regions
+  bool with_hosts = true;                // hosts of an element's nodes couple like nodes of the element
+};
+
 // The distinct nodes of an element and of their hosts.
 int coupled_nodes(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
                   std::array<std::int32_t, 8>& nodes) {
@@ -19,32 +24,40 @@ int coupled_nodes(const mesh::DistributedMesh& mesh, const std::array<std::int32
 }
 
 template <class Visit>
-void for_each_pair(const mesh::DistributedMesh& mesh, std::optional<mesh::RegionKind> kind, Visit visit) {
+void for_each_pair(const mesh::DistributedMesh& mesh, const Selection& selection, Visit visit) {
   std::array<std::int32_t, 8> nodes;
   for (const auto& region : mesh.regions) {
-    if (kind && region.kind != *kind) continue;
+    if (selection.kind && region.kind != *selection.kind) continue;
     for (const auto& element : region.elements) {
-      const int n = coupled_nodes(mesh, element, nodes);
+      const int n = selection.with_hosts ? coupled_nodes(mesh, element, nodes) : 4;
+      if (!selection.with_hosts) std::copy(element.begin(), element.end(), nodes.begin());
       for (int a = 0; a < n; ++a)
         if (nodes[a] < mesh.owned_nodes)
           for (int b = 0; b < n; ++b) visit(nodes[a], nodes[b]);
     }
   }
+  if (selection.with_hosts) return;
+  for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
+    const auto host = mesh.host[i];
+    if (host == i || i >= mesh.owned_nodes) continue;
+    visit(i, host);
+    visit(host, i);
+  }
 }
 
 
-BlockPattern build(const mesh::DistributedMesh& mesh, std::optional<mesh::RegionKind> kind) {
+BlockPattern build(const mesh::DistributedMesh& mesh, const Selection& selection) {
   BlockPattern pattern;
   pattern.rows = mesh.owned_nodes;
   pattern.columns_count = mesh.nodes();
   // Count with repetitions, fill, then make each row unique in place.
   std::vector<std::size_t> begin(pattern.rows + 1, 0);
-  for_each_pair(mesh, kind, [&](std::int32_t row, std::int32_t) { ++begin[row + 1]; });
+  for_each_pair(mesh, selection, [&](std::int32_t row, std::int32_t) { ++begin[row + 1]; });
   for (std::int32_t i = 0; i < pattern.rows; ++i) begin[i + 1] += begin[i] + 1;  // + 1: the diagonal is always there
   std::vector<std::int32_t> repeated(begin.back());
   std::vector<std::size_t> fill(begin.begin(), begin.end() - 1);
   for (std::int32_t i = 0; i < pattern.rows; ++i) repeated[fill[i]++] = i;
-  for_each_pair(mesh, kind, [&](std::int32_t row, std::int32_t column) { repeated[fill[row]++] = column; });
+  for_each_pair(mesh, selection, [&](std::int32_t row, std::int32_t column) { repeated[fill[row]++] = column; });
 
   pattern.row_begin.assign(pattern.rows + 1, 0);
   pattern.diagonal.resize(pattern.rows);
@@ -70,8 +83,12 @@ std::int32_t BlockPattern::slot(std::int32_t row, std::int32_t column) const {
   return static_cast<std::int32_t>(it - columns.begin());
 }
 
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh) { return build(mesh, std::nullopt); }
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh) { return build(mesh, {}); }
 
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind) { return build(mesh, kind); }
+BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind) {
+  return build(mesh, {kind, true});
+}
+
+BlockPattern make_pressure_pattern(const mesh::DistributedMesh& mesh) { return build(mesh, {std::nullopt, false}); }
 
 }  // namespace tunica::assembly

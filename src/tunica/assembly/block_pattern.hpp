@@ -27,6 +27,9 @@ struct BlockPattern {
 /// Pattern of all regions.
 BlockPattern make_pattern(const mesh::DistributedMesh& mesh);
 
+/// Which pressures couple: nodes of the same element, and a twin with its host (through the motion that they share).
+BlockPattern make_pressure_pattern(const mesh::DistributedMesh& mesh);
+
 /// Pattern of the regions of one kind; nodes of other regions have their diagonal block only.
 BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind);
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <petscpc.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tunica/base/error.hpp"
+#include "tunica/fe/tetrahedron.hpp"
 
 namespace tunica::assembly {
 
@@ -34,36 +36,50 @@ SchurPreconditioner::SchurPreconditioner(const mesh::DistributedMesh& mesh, cons
 
   divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
   gradient_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
-  inverse_diagonal_.assign(4 * static_cast<std::size_t>(pattern.columns_count), 0);
   scale_.assign(4 * static_cast<std::size_t>(n), 1);
   z_.resize(4 * static_cast<std::size_t>(n));
   halo_v_.assign(4 * static_cast<std::size_t>(pattern.columns_count), 0);
   halo_p_.assign(pattern.columns_count, 0);
 
-  // left: one row per node, four columns per node; right: four rows per node, one column per node.
-  std::vector<PetscInt> left_rows, left_columns, right_rows, right_columns;
-  for (std::int32_t i = 0; i < n; ++i) {
-    const auto gi = static_cast<PetscInt>(mesh.first_global + i);
-    for (auto b = pattern.row_begin[i]; b < pattern.row_begin[i + 1]; ++b) {
-      const auto gj = static_cast<PetscInt>(mesh.global_ids[pattern.columns[b]]);
-      for (PetscInt c = 0; c < 4; ++c) left_rows.push_back(gi), left_columns.push_back(4 * gj + c);
-      for (PetscInt r = 0; r < 3; ++r) right_rows.push_back(4 * gi + r), right_columns.push_back(gj);
+  make_laplacians();
+  std::vector<PetscInt> rows, columns;
+  for (std::int32_t i = 0; i < n; ++i)
+    for (auto b = pressure_pattern_.row_begin[i]; b < pressure_pattern_.row_begin[i + 1]; ++b) {
+      rows.push_back(static_cast<PetscInt>(mesh.first_global + i));
+      columns.push_back(static_cast<PetscInt>(mesh.global_ids[pressure_pattern_.columns[b]]));
+      pressure_source_.push_back(pattern.slot(i, pressure_pattern_.columns[b]));
     }
-    right_rows.push_back(4 * gi + 3), right_columns.push_back(gi);
-  }
-  const auto create = [&](parallel::MatHandle& matrix, PetscInt rows, PetscInt columns, std::vector<PetscInt>& i,
-                          std::vector<PetscInt>& j) {
-    check(MatCreate(mesh.comm, matrix.out()));
-    check(MatSetSizes(matrix.get(), rows, columns, PETSC_DETERMINE, PETSC_DETERMINE));
-    check(MatSetType(matrix.get(), MATAIJ));
-    check(MatSetPreallocationCOO(matrix.get(), static_cast<PetscCount>(i.size()), i.data(), j.data()));
-  };
-  create(left_, n, 4 * n, left_rows, left_columns);
-  create(right_, 4 * n, n, right_rows, right_columns);
-  left_values_.resize(left_rows.size());
-  right_values_.resize(right_rows.size());
+  check(MatCreate(mesh.comm, schur_.out()));
+  check(MatSetSizes(schur_, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(schur_, MATAIJ));
+  check(MatSetPreallocationCOO(schur_, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()));
   check(VecCreateMPI(mesh.comm, n, PETSC_DETERMINE, rhs_.out()));
-  check(VecDuplicate(rhs_.get(), solution_.out()));
+  check(VecDuplicate(rhs_, solution_.out()));
+}
+
+// Reference geometry is enough for a preconditioner.
+void SchurPreconditioner::make_laplacians() {
+  pressure_pattern_ = make_pressure_pattern(mesh_);
+  schur_values_.resize(static_cast<std::size_t>(pressure_pattern_.blocks()) + 1);
+  nodal_volume_.assign(pattern_.columns_count, 0.0);
+  follows_.assign(pattern_.columns_count, 0);
+  for (const auto& region : mesh_.regions)
+    for (const auto& element : region.elements) {
+      Vec3<double> x[4];
+      for (int a = 0; a < 4; ++a) x[a] = mesh_.points[element[a]];
+      if (region.kind == mesh::RegionKind::wall)
+        for (const auto node : element) follows_[node] = 1;
+      const auto shape = fe::gradients(x);
+      Laplacian& laplacian = laplacians_.emplace_back();
+      laplacian.nodes = element;
+      for (int a = 0, k = 0; a < 4; ++a) {
+        nodal_volume_[mesh_.host[element[a]]] += 0.25 * shape.volume;
+        for (int b = a + 1; b < 4; ++b)
+          laplacian.entries[k++] = static_cast<float>(shape.volume * dot(shape.dN[a], shape.dN[b]));
+        for (int b = 0; b < 4; ++b) laplacian.slots[4 * a + b] = pressure_pattern_.slot(element[a], element[b]);
+      }
+    }
+  mesh_.halo.update(nodal_volume_, 1);
 }
 
 void SchurPreconditioner::extract(const BlockMatrix& matrix) {
@@ -78,11 +94,9 @@ void SchurPreconditioner::extract(const BlockMatrix& matrix) {
     const float* a = matrix.blocks[pattern_.diagonal[i]].a;
     for (int c = 0; c < 3; ++c) {
       const double k = a[5 * c];
-      inverse_diagonal_[4 * static_cast<std::size_t>(i) + c] = 1.0 / k;
       scale_[4 * static_cast<std::size_t>(i) + c] = std::sqrt(std::abs(k));
     }
   }
-  mesh_.halo.update(inverse_diagonal_, 4);
 }
 
 void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
@@ -110,32 +124,60 @@ void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
 }
 
 void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
-  std::size_t l = 0, r = 0;
+  // Mobility of a node: volume over the mean diagonal of K, where the share of the consistent mass (its row sum is 2.5
+  // times its diagonal) counts with its row sum, since pressure gradients are smooth.
+  std::vector<double> mobility(pattern_.columns_count, 0.0), area(3 * static_cast<std::size_t>(pattern_.columns_count), 0.0);
   for (std::int32_t i = 0; i < pattern_.rows; ++i) {
+    double sum = 0, diagonal = 0;
     for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
       const float* a = matrix.blocks[b].a;
-      const double* h = inverse_diagonal_.data() + 4 * static_cast<std::size_t>(pattern_.columns[b]);
-      for (int c = 0; c < 3; ++c) left_values_[l++] = -a[4 * c + 3] * h[c];
-      left_values_[l++] = a[15];
-      for (int c = 0; c < 3; ++c) right_values_[r++] = a[12 + c];
+      sum += a[0] + a[5] + a[10];
     }
-    right_values_[r++] = 1.0;
+    const float* a = matrix.blocks[pattern_.diagonal[i]].a;
+    diagonal = a[0] + a[5] + a[10];
+    mobility[i] = 3.0 * nodal_volume_[i] / (diagonal + 0.6 * std::clamp(sum, 0.0, 2.5 * diagonal));
   }
-  check(MatSetValuesCOO(left_.get(), left_values_.data(), INSERT_VALUES));
-  check(MatSetValuesCOO(right_.get(), right_values_.data(), INSERT_VALUES));
-  if (schur_.get() == nullptr) {
-    check(MatMatMult(left_.get(), right_.get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT, schur_.out()));
-  } else {
-    Mat product = schur_.get();
-    check(MatMatMult(left_.get(), right_.get(), MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
-  }
+  mesh_.halo.update(mobility, 1);
+  for (std::int32_t i = 0; i < pattern_.columns_count; ++i)
+    if (mesh_.host[i] != i) mobility[i] = mobility[mesh_.host[i]];
 
-  check(MatGetDiagonal(schur_.get(), rhs_.get()));
-  const double* diagonal = nullptr;
-  check(VecGetArrayRead(rhs_.get(), &diagonal));
+  std::fill(schur_values_.begin(), schur_values_.end(), 0.0);
+  for (std::int32_t b = 0; b < pressure_pattern_.blocks(); ++b) schur_values_[b] = matrix.blocks[pressure_source_[b]].a[15];
+  for (const auto& e : laplacians_) {
+    const double weight = 0.25 * (mobility[e.nodes[0]] + mobility[e.nodes[1]] + mobility[e.nodes[2]] + mobility[e.nodes[3]]);
+    for (int a = 0, k = 0; a < 4; ++a)
+      for (int b = a + 1; b < 4; ++b, ++k) {
+        const double value = weight * e.entries[k];
+        schur_values_[e.slots[4 * a + b]] += value;
+        schur_values_[e.slots[4 * b + a]] += value;
+        schur_values_[e.slots[5 * a]] -= value;
+        schur_values_[e.slots[5 * b]] -= value;
+      }
+  }
+  // Where a boundary node moves freely, pressure pushes it: n^T K^-1 n with n = -(sum of its row of G), which vanishes
+  // inside. At the interface it ties the pressures of both sides.
+  for (std::int32_t i = 0; i < pattern_.rows; ++i) {
+    if (mesh_.host[i] != i) continue;
+    double n[2][3] = {};
+    std::int32_t twin = -1;
+    for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
+      const auto column = pattern_.columns[b];
+      const bool other_side = follows_[column] != follows_[i];
+      if (mesh_.host[column] == i && column != i) twin = column;
+      for (int c = 0; c < 3; ++c) n[other_side ? 1 : 0][c] += matrix.blocks[b].a[12 + c];
+    }
+    const double h = mobility[i] / nodal_volume_[i];
+    const auto product = [&](int p, int q) { return h * (n[p][0] * n[q][0] + n[p][1] * n[q][1] + n[p][2] * n[q][2]); };
+    schur_values_[pressure_pattern_.diagonal[i]] += product(0, 0);
+    if (twin >= 0) {
+      schur_values_[pressure_pattern_.slot(twin, twin)] += product(1, 1);
+      schur_values_[pressure_pattern_.slot(i, twin)] += product(0, 1);
+      schur_values_[pressure_pattern_.slot(twin, i)] += product(0, 1);
+    }
+  }
+  check(MatSetValuesCOO(schur_, schur_values_.data(), INSERT_VALUES));
   for (std::int32_t i = 0; i < pattern_.rows; ++i)
-    scale_[4 * static_cast<std::size_t>(i) + 3] = std::sqrt(std::abs(diagonal[i]));
-  check(VecRestoreArrayRead(rhs_.get(), &diagonal));
+    scale_[4 * static_cast<std::size_t>(i) + 3] = std::sqrt(std::abs(schur_values_[pressure_pattern_.diagonal[i]]));
 }
 
 void SchurPreconditioner::update(const BlockMatrix& matrix) {

@@ -2,9 +2,14 @@
 // Schur complement.
 //
 //   [K G] ~ [I       0] [K^ 0] [I  K^-1 G]        K^: block ILU(0) of K on each rank,
-//   [D L]   [D K^-1  I] [0  S] [0  I     ]        S = L - D diag(K)^-1 G, one BoomerAMG V-cycle.
+//   [D L]   [D K^-1  I] [0  S] [0  I     ]        S ~ L - D K^-1 G, one BoomerAMG V-cycle.
+//
+// D K^-1 G is a Laplacian weighted with (nodal volume) / (nodal inertia and stiffness), so it is assembled as one, on the
+// one-ring pattern of linear elements. The product D diag(K)^-1 G has 65 instead of 15 entries per row and makes the
+// multigrid cycle four times as dear while it saves few iterations (figures in docs/performance.md).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,6 +38,7 @@ class SchurPreconditioner {
   void extract(const BlockMatrix& matrix);
   void factorise(const BlockMatrix& matrix);
   void build_schur(const BlockMatrix& matrix);
+  void make_laplacians();
 
   const mesh::DistributedMesh& mesh_;
   const BlockPattern& pattern_;
@@ -44,13 +50,23 @@ class SchurPreconditioner {
   IluFactors factors_;
 
   std::vector<float> divergence_, gradient_;  ///< D and G, [block][4], the fourth entry unused
-  std::vector<double> inverse_diagonal_;      ///< 1 / diag(K), [local node][4]
   std::vector<double> scale_;
 
-  parallel::MatHandle left_, right_, schur_;  ///< S = left right, left = [-D diag(K)^-1, L], right = [G; I]
+  // S: pressures couple over one ring of elements.
+  struct Laplacian {
+    std::array<std::int32_t, 4> nodes;
+    std::array<float, 6> entries;         ///< V grad N_a . grad N_b for ab = 01 02 03 12 13 23 [m]
+    std::array<std::int32_t, 16> slots;   ///< in pressure_pattern_; its number of blocks for ghost rows
+  };
+  BlockPattern pressure_pattern_;
+  std::vector<std::int32_t> pressure_source_;  ///< [entry of pressure_pattern_]: block of the matrix
+  std::vector<Laplacian> laplacians_;
+  std::vector<char> follows_;                  ///< [local node]: belongs to the wall (twins included, hosts not)
+  std::vector<double> nodal_volume_;           ///< [local node][1], m^3
+  std::vector<double> schur_values_;
+  parallel::MatHandle schur_;
   parallel::PcHandle multigrid_;
   parallel::VecHandle rhs_, solution_;
-  std::vector<double> left_values_, right_values_;
   std::vector<float> z_;
   std::vector<double> halo_v_, halo_p_;
 };
