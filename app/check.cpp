@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "tunica/stages/case.hpp"
+#include "tunica/stages/load_mesh.hpp"
 
 namespace tunica::app {
 namespace {
@@ -12,14 +12,18 @@ namespace {
 void check(const std::filesystem::path& file) {
   const auto parsed = stages::read_case(file);
   for (const Problem& warning : parsed.warnings) std::printf("warning: %s\n", format(warning).c_str());
-  std::printf("%s: no errors, %zu warning%s\n", file.c_str(), parsed.warnings.size(),
-              parsed.warnings.size() == 1 ? "" : "s");
+  const auto mesh = stages::load_mesh(parsed.value);
+  for (const auto& line : mesh.report) std::printf("%s\n", line.c_str());
+  for (const auto& warning : mesh.warnings) std::printf("warning: %s\n", warning.c_str());
+  const std::size_t warnings = parsed.warnings.size() + mesh.warnings.size();
+  std::printf("%s: no errors, %zu warning%s\n", file.c_str(), warnings, warnings == 1 ? "" : "s");
 }
 
 }  // namespace
 
 void add_check(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("check", "Validate a case file and the files it names, without running it");
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case file, its meshes and their faces, without running it");
   command->footer(
       "Example:\n  tunica check case.yaml\nReports all errors at once (exit code 2), and warns of values that look "
       "like slips.");

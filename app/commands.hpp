@@ -1,6 +1,6 @@
 // The subcommands of tunica, one function and one file each. To add one: write app/<name>.cpp with a function that
 // declares its options and gives the subcommand a callback, declare it here and call it in main.cpp. Callbacks throw
-// InputError and SolverError; main turns them into exit codes.
+// InputError and SolverError, which main turns into exit codes, or CLI::RuntimeError with an exit code of their own.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@ namespace tunica::app {
 
 void add_check(CLI::App& app);
 void add_picture(CLI::App& app);
+void add_run(CLI::App& app);
 void add_schema(CLI::App& app);
 
 }  // namespace tunica::app

@@ -1,9 +1,11 @@
-// Command line of tunica. Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.
+// Command line of tunica. Exit codes: 0 done, 2 the input is wrong, 3 a computation failed; `tunica run`
+// adds 128 + number of the signal that stopped it.
 #include <cstdio>
 #include <exception>
 
 #include "commands.hpp"
 #include "tunica/base/error.hpp"
+#include "version.hpp"
 
 namespace {
 
@@ -18,16 +20,19 @@ int fail(int code, const std::exception& error) {
 
 int main(int argc, char** argv) {
   CLI::App app("Fluid-structure interaction in aortic dissection.", "tunica");
-  app.set_version_flag("--version", TUNICA_VERSION);
+  app.set_version_flag("--version", tunica::app::version());
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.\n"
       "More about a subcommand: tunica <subcommand> --help");
   tunica::app::add_check(app);
   tunica::app::add_picture(app);
+  tunica::app::add_run(app);
   tunica::app::add_schema(app);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RuntimeError& error) {  // how a subcommand returns another exit code
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : input_error;
   } catch (const tunica::InputError& error) {

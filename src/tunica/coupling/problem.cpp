@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -337,6 +338,24 @@ StepReport Problem::solve_static(State& state, double factor) {
   last_instant_ = instant;
   state = std::move(next);
   return report;
+}
+
+Problem::WorstNode Problem::worst_node() const {
+  WorstNode worst;
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i) {
+    const Vec3<double> r{{residual_[at(i)], residual_[at(i) + 1], residual_[at(i) + 2]}};
+    const double force = norm(r);
+    if (std::isnan(worst.force) || !(force > worst.force || std::isnan(force))) continue;
+    worst = {force, mesh_.points[i]};
+  }
+  struct {
+    double value;
+    int rank;
+  } mine{std::isnan(worst.force) ? std::numeric_limits<double>::infinity() : worst.force, 0}, all{};
+  MPI_Comm_rank(mesh_.comm, &mine.rank);
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh_.comm);
+  MPI_Bcast(&worst, sizeof worst, MPI_BYTE, all.rank, mesh_.comm);
+  return worst;
 }
 
 Problem::PartialResiduals Problem::partial_residuals() const {

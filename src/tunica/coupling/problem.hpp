@@ -72,6 +72,13 @@ class Problem {
   };
   PartialResiduals partial_residuals() const;
 
+  /// Node with the largest unbalanced force of the last evaluation: where a failed step went wrong. Collective.
+  struct WorstNode {
+    double force = 0;      ///< [N]; NaN counts as largest
+    Vec3<double> place{};  ///< in the initial mesh [m]
+  };
+  WorstNode worst_node() const;
+
   /// Fields at t_{n+alpha_f} of the last evaluation.
   FieldsView fields() const;
   const Boundaries& boundaries() const { return boundaries_; }

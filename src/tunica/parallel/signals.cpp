@@ -27,7 +27,7 @@ long long milliseconds_since(const timespec& earlier) {
 extern "C" void request_stop(int signal) {
   if (requested == 0) {
     clock_gettime(CLOCK_MONOTONIC, &first_request);
-    requested = 1;
+    requested = signal;
   } else if (milliseconds_since(first_request) > same_request) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -54,6 +54,6 @@ StopSignals::~StopSignals() {
   requested = 0;
 }
 
-bool stop_requested(MPI_Comm comm) { return any(comm, requested != 0); }
+int stop_requested(MPI_Comm comm) { return static_cast<int>(global_max(comm, std::int64_t{requested})); }
 
 }  // namespace tunica::parallel

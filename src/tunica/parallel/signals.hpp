@@ -24,7 +24,8 @@ class StopSignals {
   struct sigaction earlier_[3];
 };
 
-/// Whether any rank was asked to stop since the StopSignals began; same answer on all ranks. Collective.
-bool stop_requested(MPI_Comm comm);
+/// The signal that asked any rank to stop since the StopSignals began, 0 when there was none (the largest number when
+/// there were several); same answer on all ranks. Collective.
+int stop_requested(MPI_Comm comm);
 
 }  // namespace tunica::parallel

@@ -1,0 +1,216 @@
+#include "tunica/coupling/monitors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tunica/fluid/boundary.hpp"
+#include "tunica/fluid/energy.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/wall/output.hpp"
+
+namespace tunica::coupling {
+
+using mesh::RegionKind;
+
+namespace {
+
+std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
+
+Vec3<double> vector_at(const double* field, std::int32_t node) {
+  const double* v = field + at(node);
+  return {{v[0], v[1], v[2]}};
+}
+
+template <std::size_t N>
+void gather(const double* field, const std::array<std::int32_t, N>& nodes, Vec3<double> (&out)[N]) {
+  for (std::size_t a = 0; a < N; ++a) out[a] = vector_at(field, nodes[a]);
+}
+
+double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+}  // namespace
+
+// The interface carries no load of its own; on its rim the conditions of the adjoining faces act as well.
+Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.mesh().owned_nodes, NodeKind::inner) {
+  const auto& mesh = problem.mesh();
+  for (const auto& region : mesh.regions)
+    if (region.kind == RegionKind::wall)
+      for (const auto& element : region.elements)
+        for (const auto node : element)
+          if (node < mesh.owned_nodes) kind_[node] = NodeKind::wall;
+  std::set<std::string> interface;
+  for (const auto& [lumen, wall] : problem.input().boundary.interfaces) interface.insert({lumen, wall});
+  std::vector<char> on_interface(kind_.size(), 0), on_other(kind_.size(), 0);
+  for (const auto& face : mesh.faces) {
+    auto& mark = interface.contains(face.name) ? on_interface : on_other;
+    for (const auto& triangle : face.triangles)
+      for (const auto node : triangle)
+        if (mesh.host[node] < mesh.owned_nodes) mark[mesh.host[node]] = 1;
+  }
+  for (std::size_t i = 0; i < kind_.size(); ++i) {
+    if (on_interface[i])
+      kind_[i] = on_other[i] ? NodeKind::rim : NodeKind::interface;
+    else if (on_other[i] && kind_[i] == NodeKind::inner)
+      kind_[i] = NodeKind::opening;
+  }
+}
+
+void Monitors::faces(StepRecord& record) const {
+  const auto& mesh = problem_.mesh();
+  const FieldsView f = problem_.fields();
+  std::vector<double> sums;
+  for (const auto& face : mesh.faces) {
+    if (mesh.regions[face.region].kind != RegionKind::lumen) continue;
+    double flow = 0, force = 0, area = 0, sweep = 0;
+    for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
+      Vec3<double> x[3], v[3], w[3];
+      gather(f.position, face.triangles[t], x);
+      gather(f.velocity_pressure, face.triangles[t], v);
+      gather(f.mesh_velocity, face.triangles[t], w);
+      double p[3];
+      for (int a = 0; a < 3; ++a) p[a] = f.velocity_pressure[at(face.triangles[t][a]) + 3];
+      flow += fluid::flow(x, v, w);
+      force += fluid::integrated_pressure(x, p);
+      area += fluid::area(x);
+      sweep += dot(fluid::nodal_area_vector(x), w[0] + w[1] + w[2]);
+    }
+    record.faces.push_back({face.name, 0, 0, 0});
+    sums.insert(sums.end(), {flow, force, area, sweep});
+  }
+  parallel::global_sum(mesh.comm, sums);
+  for (std::size_t k = 0; k < record.faces.size(); ++k) {
+    const double* s = sums.data() + 4 * k;
+    record.faces[k].flow = s[0];
+    record.faces[k].area = s[2];
+    record.faces[k].mean_pressure = s[1] / s[2];
+    record.volume_rate += s[3];
+    record.mass_residual += s[0];
+    record.largest_flow = std::max(record.largest_flow, std::abs(s[0]));
+  }
+  record.mass_residual += record.volume_rate;
+  record.largest_flow = std::max(record.largest_flow, std::abs(record.volume_rate));
+}
+
+void Monitors::lumen_elements(double dt, StepRecord& record) const {
+  const auto& mesh = problem_.mesh();
+  const FieldsView f = problem_.fields();
+  double sums[4] = {};  // volume, kinetic energy, viscous and numerical dissipation
+  for (const auto& region : mesh.regions) {
+    if (region.kind != RegionKind::lumen) continue;
+    const fluid::Parameters& parameters = *problem_.input().fluid;
+    for (std::int32_t e = 0; e < region.owned_elements; ++e) {
+      const auto& nodes = region.elements[e];
+      fluid::ElementState<double> s;
+      gather(f.position, nodes, s.position);
+      gather(f.velocity_pressure, nodes, s.velocity);
+      gather(f.acceleration, nodes, s.acceleration);
+      gather(f.mesh_velocity, nodes, s.mesh_velocity);
+      for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
+      const auto flow = std::visit([&](const auto& law) { return fluid::evaluate(s, law); }, parameters.viscosity);
+      const auto tau = fluid::stabilisation(flow, dt, parameters);
+      sums[0] += flow.shape.volume;
+      sums[1] += fluid::kinetic_energy(flow.shape.volume, s.velocity, parameters.density);
+      sums[2] += fluid::viscous_dissipation(flow);
+      sums[3] += fluid::numerical_dissipation(flow, tau, s.velocity, parameters.density);
+    }
+  }
+  parallel::global_sum(mesh.comm, sums);
+  record.lumen_volume = sums[0];
+  record.fluid_kinetic = sums[1];
+  record.viscous_dissipation = sums[2];
+  record.numerical_dissipation = sums[3];
+}
+
+void Monitors::wall_elements(StepRecord& record) const {
+  const auto& mesh = problem_.mesh();
+  const FieldsView f = problem_.fields();
+  double sums[3] = {};  // volume, kinetic energy, strain energy
+  for (const auto& region : mesh.regions) {
+    if (region.kind != RegionKind::wall) continue;
+    const wall::Parameters& parameters = *problem_.input().wall;
+    const wall::Body body = parameters.body();
+    const wall::Law any_law = parameters.law();
+    const bool mixed = parameters.element == wall::Element::mixed;
+    for (std::int32_t e = 0; e < region.owned_elements; ++e) {
+      const auto& nodes = region.elements[e];
+      Vec3<double> X[4], velocity[4], x[4];
+      gather(f.reference_position, nodes, X);
+      gather(f.velocity_pressure, nodes, velocity);
+      wall::ElementState<double> s{
+          .reference = fe::gradients(X), .displacement = {}, .acceleration = {}, .pressure = {}};
+      gather(f.displacement, nodes, s.displacement);
+      for (int a = 0; a < 4; ++a) {
+        s.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
+        x[a] = X[a] + s.displacement[a];
+      }
+      sums[0] += fe::gradients(x).volume;
+      sums[1] += wall::kinetic_energy(s.reference.volume, velocity, parameters.density);
+      sums[2] += std::visit(
+          [&](const auto& law) {
+            return mixed ? wall::mixed_strain_energy(s, law, body) : wall::displacement_strain_energy(s, law, body);
+          },
+          any_law);
+    }
+  }
+  parallel::global_sum(mesh.comm, sums);
+  record.wall_volume = sums[0];
+  record.wall_kinetic = sums[1];
+  record.wall_strain = sums[2];
+}
+
+// The residual of the elements at a node is the force that acts on them there.
+void Monitors::powers(StepRecord& record) const {
+  const auto parts = problem_.partial_residuals();
+  const double* v = problem_.fields().velocity_pressure;
+  double sums[4] = {};  // openings, wall loads, interface lumen, interface wall
+  for (std::size_t i = 0; i < kind_.size(); ++i) {
+    const double lumen = dot3(v + 4 * i, parts.lumen.data() + 4 * i), wall = dot3(v + 4 * i, parts.wall.data() + 4 * i);
+    switch (kind_[i]) {
+      case NodeKind::opening:
+        sums[0] += lumen;
+        break;
+      case NodeKind::wall:
+        sums[1] += wall;
+        break;
+      case NodeKind::rim:
+        sums[1] += lumen + wall;
+        break;
+      case NodeKind::interface:
+        sums[2] += lumen, sums[3] += wall;
+        break;
+      case NodeKind::inner:
+        break;
+    }
+  }
+  parallel::global_sum(problem_.mesh().comm, sums);
+  record.opening_power = sums[0];
+  record.wall_load_power = sums[1];
+  record.interface_power_lumen = sums[2];
+  record.interface_power_wall = sums[3];
+}
+
+void Monitors::extremes(StepRecord& record) const {
+  const auto& mesh = problem_.mesh();
+  const FieldsView f = problem_.fields();
+  double u = 0, v = 0;
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
+    u = std::max(u, dot3(f.displacement + at(i), f.displacement + at(i)));
+    v = std::max(v, dot3(f.velocity_pressure + at(i), f.velocity_pressure + at(i)));
+  }
+  record.max_displacement = std::sqrt(parallel::global_max(mesh.comm, u));
+  record.max_velocity = std::sqrt(parallel::global_max(mesh.comm, v));
+  if (problem_.moving()) record.mesh_quality = mesh_quality(mesh, std::span(f.position, at(mesh.nodes()))).smallest;
+}
+
+StepRecord Monitors::evaluate(double dt) const {
+  StepRecord record;
+  faces(record);
+  if (problem_.input().fluid) lumen_elements(dt, record);
+  if (problem_.input().wall) wall_elements(record);
+  if (dt > 0) powers(record);
+  extremes(record);
+  return record;
+}
+
+}  // namespace tunica::coupling

@@ -1,0 +1,66 @@
+// Integral quantities of an accepted step: flows, volumes, energies, and the balances that must close.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tunica/coupling/problem.hpp"
+
+namespace tunica::coupling {
+
+/// A face of the lumen at t_{n+alpha_f}.
+struct FaceRecord {
+  std::string name;
+  double flow = 0;           ///< out of the lumen, relative to the moving face [m^3/s]
+  double mean_pressure = 0;  ///< [Pa]
+  double area = 0;           ///< [m^2]
+};
+
+/// Values at t_{n+alpha_f}, where the equations are balanced. Fields of a region that is not there are zero.
+struct StepRecord {
+  std::vector<FaceRecord> faces;  ///< of the lumen, in the order of the mesh
+
+  double lumen_volume = 0, wall_volume = 0;  ///< [m^3]
+  double volume_rate = 0;                    ///< surface integral of the mesh velocity over the lumen boundary [m^3/s]
+  /// Sum of the flows through all lumen faces + volume_rate [m^3/s]. The continuity equations add up to it, so that it
+  /// vanishes to the tolerance of Newton's method.
+  double mass_residual = 0;
+  double largest_flow = 0;  ///< of the faces' magnitudes and |volume_rate| [m^3/s]: what mass_residual compares with
+
+  double fluid_kinetic = 0, wall_kinetic = 0, wall_strain = 0;  ///< [J]
+  double viscous_dissipation = 0, numerical_dissipation = 0;    ///< of the flow [W]
+  double opening_power = 0;                                     ///< of the loads on lumen openings [W]
+  double wall_load_power = 0;                                   ///< of loads and supports of the wall [W]
+  /// Power that the lumen and the wall elements take from interface nodes that no load acts on [W]. Their sum is the
+  /// power that the coupling makes or loses; it vanishes to the tolerance of Newton's method.
+  double interface_power_lumen = 0, interface_power_wall = 0;
+
+  double max_displacement = 0;  ///< of all nodes, the lumen mesh included [m]
+  double max_velocity = 0;      ///< [m/s]
+  double mesh_quality = 1;      ///< smallest of the moving lumen mesh relative to the initial one
+};
+
+/// What does not change from step to step.
+class Monitors {
+ public:
+  /// `problem` must outlive this.
+  explicit Monitors(const Problem& problem);
+
+  /// For the step of size `dt` [s] that `problem` last accepted; 0 for a static equilibrium. All sums are added in rank
+  /// order. Collective.
+  StepRecord evaluate(double dt) const;
+
+ private:
+  enum class NodeKind : char { inner, opening, interface, rim, wall };
+
+  void faces(StepRecord& record) const;
+  void lumen_elements(double dt, StepRecord& record) const;
+  void wall_elements(StepRecord& record) const;
+  void powers(StepRecord& record) const;
+  void extremes(StepRecord& record) const;
+
+  const Problem& problem_;
+  std::vector<NodeKind> kind_;  ///< of the owned nodes
+};
+
+}  // namespace tunica::coupling

@@ -1,0 +1,48 @@
+// Fields of a run for the time series: names with units, stresses, wall shear stress.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tunica/coupling/problem.hpp"
+#include "tunica/mesh/results_writer.hpp"
+#include "tunica/stages/case.hpp"
+
+namespace tunica::stages {
+
+/// Prepares a state for the ResultsWriter, in the units of the case:
+/// lumen: velocity, pressure, displacement (of the mesh, when it moves), wall shear stress (zero off the wall);
+/// wall: velocity (in dynamics), displacement, pressure (mixed element), and for each element the von Mises stress and
+/// the largest principal stress.
+class OutputFields {
+ public:
+  /// `problem` must outlive this.
+  OutputFields(const coupling::Problem& problem, const Case& c);
+
+  /// Collective. Throws as ResultsWriter::write.
+  void write(mesh::ResultsWriter& writer, std::int64_t step, double time, const coupling::State& state);
+
+ private:
+  /// A triangle of the vessel's inside and the lumen element behind it, local nodes.
+  struct WallTriangle {
+    std::array<std::int32_t, 3> nodes;
+    std::array<std::int32_t, 4> element;
+  };
+  void find_wall_triangles(const Case& c);
+  void compute_shear_stress(const coupling::State& state);
+  void compute_wall_stress(const coupling::State& state);
+
+  const coupling::Problem& problem_;
+  OutputUnits units_;
+  bool dynamic_ = true;
+  std::vector<WallTriangle> wall_triangles_;
+  std::vector<double> shear_;  ///< [local node][3], Pa
+  struct RegionStress {
+    std::int32_t region;
+    std::vector<double> von_mises, principal;  ///< of the owned elements, Pa
+  };
+  std::vector<RegionStress> stress_;
+};
+
+}  // namespace tunica::stages

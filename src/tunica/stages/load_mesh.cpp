@@ -1,0 +1,119 @@
+#include "tunica/stages/load_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tunica/bc/check.hpp"
+#include "tunica/mesh/gmsh.hpp"
+#include "tunica/mesh/interface.hpp"
+#include "tunica/mesh/quality.hpp"
+#include "tunica/mesh/simvascular.hpp"
+#include "tunica/stages/hash.hpp"
+
+namespace tunica::stages {
+
+namespace {
+
+using mesh::LoadedMesh;
+using mesh::RegionKind;
+
+/// Runs `action` and keeps what is wrong, so that the problems of all meshes are reported at once.
+template <class Action>
+void collect(std::vector<Problem>& problems, Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+}
+
+LoadedMesh read_regions(const MeshSettings& m) {
+  std::vector<LoadedMesh> parts;
+  std::vector<Problem> problems;
+  const mesh::SimVascularOptions options{.metres_per_unit = *m.metres_per_unit};
+  const auto read = [&](const std::optional<RegionMesh>& region, RegionKind kind, const char* name) {
+    if (!region) return;
+    collect(problems, [&] { parts.push_back(mesh::read_simvascular(region->simvascular, kind, name, options)); });
+  };
+  read(m.lumen, RegionKind::lumen, "lumen");
+  read(m.wall, RegionKind::wall, "wall");
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (!m.interface) return mesh::join(parts, {}, {});
+  const mesh::Interface interface { m.interface->lumen_faces, m.interface->wall_faces };
+  return mesh::join(parts, std::span(&interface, 1), {.tolerance = m.interface->tolerance});
+}
+
+LoadedMesh read_or_generate(const MeshSettings& m) {
+  if (m.tube) return {mesh::tube(*m.tube), {}};
+  if (!m.gmsh) return read_regions(m);
+  mesh::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}};
+  for (const auto& [name, kind] : m.gmsh->regions) options.regions.push_back({name, kind});
+  return mesh::read_gmsh(m.gmsh->file, options);
+}
+
+bc::BoundaryCase boundary_case(const Case& c, const mesh::MeshData& data) {
+  bc::BoundaryCase boundary;
+  for (const auto& face : data.faces)
+    boundary.faces.push_back(
+        {face.name, data.regions[face.region].kind == RegionKind::lumen ? bc::Field::lumen : bc::Field::wall});
+  boundary.interfaces = interface_pairs(c.meshes);
+  boundary.conditions = c.boundary;
+  boundary.rigid_wall = std::holds_alternative<RigidFlow>(c.analysis);
+  boundary.static_wall = std::holds_alternative<StaticWall>(c.analysis);
+  return boundary;
+}
+
+void report_quality(CheckedMesh& mesh, std::vector<Problem>& problems) {
+  for (std::size_t r = 0; r < mesh.data.regions.size(); ++r) {
+    const auto& region = mesh.data.regions[r];
+    collect(problems, [&] {
+      const auto quality = mesh::check_quality(mesh.data, static_cast<std::int32_t>(r), {}, region.name);
+      mesh.report.push_back(fmt::format("{}: {}", region.name, quality.summary));
+      mesh.warnings.insert(mesh.warnings.end(), quality.warnings.begin(), quality.warnings.end());
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSettings& meshes) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  if (!meshes.interface) return pairs;
+  const auto &lumen = meshes.interface->lumen_faces, &wall = meshes.interface->wall_faces;
+  for (std::size_t k = 0; k < std::max(lumen.size(), wall.size()); ++k)
+    pairs.emplace_back(lumen[std::min(k, lumen.size() - 1)], wall[std::min(k, wall.size() - 1)]);
+  return pairs;
+}
+
+CheckedMesh load_mesh(const Case& c) {
+  LoadedMesh loaded = read_or_generate(c.meshes);
+  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
+  std::vector<Problem> problems;
+  report_quality(mesh, problems);
+  const auto wrong = bc::check_boundary(boundary_case(c, mesh.data));
+  problems.insert(problems.end(), wrong.begin(), wrong.end());
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return mesh;
+}
+
+std::uint64_t mesh_hash(const mesh::MeshData& data) {
+  Hash hash;
+  for (const auto& x : data.points) hash.add(&x, sizeof x);
+  for (const auto& t : data.tetrahedra) hash.add(&t, sizeof t);
+  for (const auto& region : data.regions) {
+    hash.add(region.name.data(), region.name.size());
+    hash.add(&region.kind, sizeof region.kind);
+    hash.add(&region.first_element, sizeof region.first_element);
+    hash.add(&region.end_element, sizeof region.end_element);
+  }
+  for (const auto& face : data.faces) {
+    hash.add(face.name.data(), face.name.size());
+    hash.add(&face.region, sizeof face.region);
+    for (const auto& t : face.triangles) hash.add(&t, sizeof t);
+  }
+  for (const auto& twin : data.twins) hash.add(&twin, sizeof twin);
+  return hash.value();
+}
+
+}  // namespace tunica::stages

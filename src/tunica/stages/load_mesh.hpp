@@ -1,0 +1,32 @@
+// From the mesh section of a case to a mesh that a problem can be posed on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/case.hpp"
+
+namespace tunica::stages {
+
+/// A mesh as it was read or generated, and what there is to say about it.
+struct CheckedMesh {
+  mesh::MeshData data;
+  std::vector<std::string> report;    ///< what the readers noticed, sizes and quality of the regions; for the log
+  std::vector<std::string> warnings;  ///< elements of poor shape
+};
+
+/// Reads or generates the meshes of the case, joins them, checks the shapes of the elements and that every face has
+/// exactly one condition. Throws InputError with all problems that were found. Not collective: for one rank.
+CheckedMesh load_mesh(const Case& c);
+
+/// Number that changes with any coordinate, element, face or twin: two runs with the same number have the same mesh.
+std::uint64_t mesh_hash(const mesh::MeshData& data);
+
+/// (lumen face, wall face) pairs of the interface, in which every face of either side occurs.
+std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSettings& meshes);
+
+}  // namespace tunica::stages

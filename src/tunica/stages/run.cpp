@@ -1,0 +1,427 @@
+#include "tunica/stages/run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tunica/assembly/isa.hpp"
+#include "tunica/assembly/time_scheme.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/config/units.hpp"
+#include "tunica/coupling/monitors.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/progress.hpp"
+#include "tunica/parallel/signals.hpp"
+#include "tunica/stages/checkpoint.hpp"
+#include "tunica/stages/fields.hpp"
+#include "tunica/stages/hash.hpp"
+#include "tunica/stages/histories.hpp"
+#include "tunica/stages/step_grid.hpp"
+
+namespace tunica::stages {
+
+namespace fs = std::filesystem;
+using coupling::StepReport;
+
+namespace {
+
+constexpr int static_halvings = 6;
+constexpr std::size_t kept_checkpoints = 2;
+
+coupling::ProblemInput problem_input(const Case& c) {
+  coupling::ProblemInput input;
+  input.fluid = c.fluid;
+  input.wall = c.wall;
+  if (c.mesh_motion) input.mesh_motion = *c.mesh_motion;
+  input.boundary.conditions = c.boundary;
+  input.boundary.interfaces = interface_pairs(c.meshes);
+  input.boundary.wall_has_pressure = c.wall && c.wall->element == wall::Element::mixed;
+  input.boundary.fluid = c.fluid;
+  if (c.time) input.rho_infinity = c.time->rho_infinity;
+  input.newton = c.newton;
+  input.linear = c.linear;
+  return input;
+}
+
+std::uint64_t text_hash(const std::string& text) {
+  Hash hash;
+  hash.add(text.data(), text.size());
+  return hash.value();
+}
+
+std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string(), fmt::format("the folder of results cannot be made ({})", error.message()),
+                     "name one that can be created and written");
+}
+
+/// One run from its first to its last step. Its member functions are collective.
+class Run {
+ public:
+  Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen);
+  RunOutcome steps();
+
+ private:
+  fs::path checkpoint_folder() const { return folder_ / "checkpoints"; }
+  bool is_static() const { return std::holds_alternative<StaticWall>(case_.analysis); }
+  bool continued() const { return request_.restart || request_.restart_file; }
+  std::int64_t last_step() const;
+  StepGrid make_grid(const StepGrid::Position* position) const;
+
+  void prepare_folder();
+  void distribute();
+  void restore();
+  void open_outputs();
+
+  StepReport attempt();
+  /// Takes one step, in parts if it must be. False when a signal came instead.
+  bool take_step();
+  void accepted(const StepReport& report, double dt);
+  void rejected(const StepReport& report);
+  void write_fields();
+  void save();
+  void record(const std::string& status, const std::string& message);
+  [[noreturn]] void give_up(const StepReport& report);
+
+  std::string time_text(double seconds) const;
+  std::string step_line(const StepReport& report, double dt) const;
+
+  const ReadCase& input_;
+  const Case& case_;
+  RunRequest request_;
+  MPI_Comm comm_;
+  double started_ = MPI_Wtime();
+  fs::path folder_;
+  double time_unit_;  ///< s
+
+  std::uint64_t case_hash_ = 0, mesh_hash_ = 0;
+  bool folder_has_results_ = false;
+  std::optional<parallel::Log> log_;
+  mesh::DistributedMesh mesh_;
+  std::optional<coupling::Problem> problem_;
+  std::optional<coupling::Monitors> monitors_;
+  std::optional<OutputFields> fields_;
+  std::optional<mesh::ResultsWriter> writer_;
+  std::optional<Histories> histories_;  ///< rank 0
+  std::optional<Manifest> manifest_;    ///< rank 0
+  coupling::State state_;
+  StepGrid grid_;
+  ManifestProgress progress_;
+  fs::path last_checkpoint_;
+  std::int64_t fields_step_ = -1;       ///< last step whose fields are on disk
+  std::int64_t checkpoint_state_ = -1;  ///< accepted steps in the last checkpoint
+  std::optional<parallel::Progress> bar_;
+};
+
+Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen)
+    : input_(c),
+      case_(c.settings),
+      request_(request),
+      comm_(comm),
+      folder_(request.directory.value_or(c.settings.output.directory)),
+      time_unit_(config::unit_factor(c.settings.output.units.time, config::dimension::time)),
+      case_hash_(text_hash(c.text)),
+      grid_(make_grid(nullptr)) {
+  mesh_hash_ = parallel::on_root(comm_, [&] { return mesh_hash(input_.mesh.data); });
+  parallel::broadcast(comm_, mesh_hash_);
+  prepare_folder();
+  log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
+  if (!case_.title.empty()) log_->info(case_.title);
+  for (const auto& line : input_.mesh.report) log_->info(line);
+  for (const auto& line : input_.warnings) log_->warning(line);
+  for (const auto& line : input_.mesh.warnings) log_->warning(line);
+  distribute();
+  restore();
+  open_outputs();
+  progress_.set_up_seconds = MPI_Wtime() - started_;
+  record("running", "");
+}
+
+std::int64_t Run::last_step() const {
+  if (const auto* s = std::get_if<StaticWall>(&case_.analysis)) return s->load_steps;
+  return case_.time->steps;
+}
+
+// In statics the grid is that of the load factor.
+StepGrid Run::make_grid(const StepGrid::Position* position) const {
+  const auto* statics = std::get_if<StaticWall>(&case_.analysis);
+  const double nominal = statics ? 1.0 / statics->load_steps : case_.time->step;
+  const int halvings = statics ? static_halvings : case_.time->max_halvings;
+  return position ? StepGrid(nominal, halvings, *position) : StepGrid(nominal, halvings);
+}
+
+void Run::prepare_folder() {
+  folder_has_results_ = parallel::on_root(comm_, [&] {
+    const auto results = find_results(folder_);
+    if (!results) return create_folder(folder_), false;
+    if (request_.overwrite) {
+      remove_results(folder_, *results);
+      return false;
+    }
+    const std::string where = folder_.string();
+    const bool same_case = results->case_hash == case_hash_, same_mesh = results->mesh_hash == mesh_hash_;
+    if (!continued())
+      throw InputError(where,
+                       fmt::format("holds results of {}case {} ({}, {})", same_case ? "this " : "another ",
+                                   results->case_file, results->status, plural(results->last_step, "step")),
+                       same_case ? "go on with them by --restart, remove them by --overwrite, or choose another "
+                                   "folder by --output"
+                                 : "choose another folder by --output, or remove them by --overwrite");
+    if (!same_mesh)
+      throw InputError(where, fmt::format("holds results on another mesh, of case {}", results->case_file),
+                       "choose another folder by --output");
+    return true;
+  });
+  parallel::broadcast(comm_, folder_has_results_);
+}
+
+void Run::distribute() {
+  mesh_ = mesh::distribute(input_.mesh.data, comm_);
+  problem_.emplace(mesh_, problem_input(case_));
+  monitors_.emplace(*problem_);
+  fields_.emplace(*problem_, case_);
+  log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
+                         plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
+}
+
+void Run::restore() {
+  state_ = problem_->initial_state();
+  if (const auto* statics = std::get_if<StaticWall>(&case_.analysis)) state_.time = statics->load_time;
+  if (!continued()) return;
+  std::string name = parallel::on_root(comm_, [&] {
+    if (request_.restart_file) return request_.restart_file->string();
+    const auto files = list_checkpoints(checkpoint_folder());
+    if (files.empty())
+      throw InputError(checkpoint_folder().string(), "holds no checkpoint to restart from",
+                       "run without --restart, or name one by --restart FILE");
+    return files.back().string();
+  });
+  parallel::broadcast(comm_, name);
+  Checkpoint checkpoint = read_checkpoint(name, mesh_, state_, mesh_hash_);
+  state_ = std::move(checkpoint.state);
+  grid_ = make_grid(&checkpoint.position);
+  last_checkpoint_ = name;
+  log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
+                         time_text(grid_.time())));
+  if (checkpoint.case_hash != case_hash_)
+    log_->warning("the case file has changed since the checkpoint was written; the run goes on with the new one");
+}
+
+void Run::open_outputs() {
+  const bool keep = continued() && folder_has_results_;
+  std::vector<std::string> lumen_faces;
+  for (const auto& face : mesh_.faces)
+    if (mesh_.regions[face.region].kind == mesh::RegionKind::lumen) lumen_faces.push_back(face.name);
+  ManifestHead head{.program = request_.program,
+                    .case_file = request_.case_file,
+                    .case_text = input_.text,
+                    .case_hash = case_hash_,
+                    .mesh_hash = mesh_hash_,
+                    .ranks = parallel::size(comm_),
+                    .nodes = mesh_.global_nodes,
+                    .elements = mesh_.global_elements,
+                    .regions = {},
+                    .first_step = grid_.steps_done()};
+  for (const auto& r : input_.mesh.data.regions) head.regions.emplace_back(r.name, r.end_element - r.first_element);
+  parallel::on_root(comm_, [&] {
+    const auto from = keep ? std::optional(state_.step) : std::nullopt;
+    histories_.emplace(folder_, case_, lumen_faces, state_.outlets, from);
+    manifest_.emplace(folder_, head, keep);
+    for (const auto& file : list_checkpoints(checkpoint_folder()))  // of a future that is computed anew
+      if (step_of(file) > grid_.steps_done()) fs::remove(file);
+  });
+  mesh::ResultsOptions options{.directory = folder_};
+  options.length_factor = 1 / config::unit_factor(case_.output.units.length, config::dimension::length);
+  if (keep) options.continue_from = grid_.time();
+  writer_.emplace(mesh_, options);
+}
+
+std::string Run::time_text(double t) const {
+  if (is_static()) return fmt::format("{:.6g} of the load", t);
+  return fmt::format("{:.6g} {}", t / time_unit_, case_.output.units.time);
+}
+
+std::string Run::step_line(const StepReport& report, double dt) const {
+  const double first = report.iterations.empty() ? report.final_norm : report.iterations[0].norm;
+  return fmt::format("step {}/{}  t {}  newton {}  linear {}  norm {:.2e} -> {:.2e}  dt {}  {:.2f} s",
+                     grid_.on_grid() ? grid_.steps_done() : grid_.steps_done() + 1, last_step(),
+                     time_text(grid_.time()), report.iterations.size(), report.linear_iterations(), first,
+                     report.final_norm, time_text(dt), report.timings.total);
+}
+
+// A mesh motion that does not converge is one more way in which a step can be too large.
+StepReport Run::attempt() {
+  try {
+    const double size = grid_.next_step();
+    return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
+  } catch (const SolverError& error) {
+    StepReport report;
+    report.failure = error.what();
+    return report;
+  }
+}
+
+void Run::accepted(const StepReport& report, double dt) {
+  const double start = grid_.time();
+  grid_.accept();
+  if (is_static())
+    ++state_.step;
+  else
+    state_.time = grid_.time();
+  StepHistory history{
+      .step = state_.step, .time = grid_.time(), .dt = dt, .evaluated = grid_.time(), .record = {}, .report = report};
+  if (!is_static())
+    history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
+  history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
+  parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); });
+
+  auto& p = progress_;
+  p.newton_iterations += std::ssize(report.iterations);
+  p.linear_iterations += report.linear_iterations();
+  p.timings.assembly += report.timings.assembly;
+  p.timings.set_up += report.timings.set_up;
+  p.timings.linear += report.timings.linear;
+  p.timings.mesh += report.timings.mesh;
+  p.timings.total += report.timings.total;
+  log_->info(step_line(report, dt));
+}
+
+void Run::rejected(const StepReport& report) {
+  ++progress_.rejected_steps;
+  const double size = grid_.next_step();
+  if (!grid_.halve()) give_up(report);
+  log_->warning(fmt::format("step of {} from t = {} rejected: {}; trying {}", time_text(size), time_text(grid_.time()),
+                            report.failure, time_text(grid_.next_step())));
+}
+
+bool Run::take_step() {
+  do {
+    if (parallel::stop_requested(comm_) != 0) return false;
+    const double dt = grid_.next_step();
+    const StepReport report = attempt();
+    if (report.converged)
+      accepted(report, dt);
+    else
+      rejected(report);
+  } while (!grid_.on_grid());
+  return true;
+}
+
+void Run::write_fields() {
+  if (fields_step_ == grid_.steps_done()) return;
+  fields_->write(*writer_, grid_.steps_done(), grid_.time(), state_);
+  fields_step_ = grid_.steps_done();
+}
+
+void Run::save() {
+  if (checkpoint_state_ == state_.step) return;
+  const fs::path file = checkpoint_file(checkpoint_folder(), grid_.steps_done());
+  write_checkpoint(file, mesh_, {state_, grid_.position(), case_hash_, mesh_hash_});
+  last_checkpoint_ = file;
+  checkpoint_state_ = state_.step;
+  parallel::on_root(comm_, [&] {
+    auto files = list_checkpoints(checkpoint_folder());
+    for (std::size_t k = 0; k + kept_checkpoints < files.size(); ++k) fs::remove(files[k]);
+  });
+}
+
+void Run::record(const std::string& status, const std::string& message) {
+  auto& p = progress_;
+  p.status = status;
+  p.message = message;
+  p.last_step = grid_.steps_done();
+  p.time = grid_.time();
+  p.total_seconds = MPI_Wtime() - started_;
+  p.peak_memory = parallel::global_sum(comm_, peak_memory());
+  parallel::on_root(comm_, [&] { manifest_->write(p); });
+}
+
+void Run::give_up(const StepReport& report) {
+  const auto worst = problem_->worst_node();
+  std::string norms = "none";
+  if (!report.iterations.empty()) norms.clear();
+  for (const auto& iteration : report.iterations) norms += fmt::format("{:.3e} ", iteration.norm);
+  save();
+  throw SolverError(
+      fmt::format("the {} did not converge from t = {} (after {}), with steps down to {}.\n"
+                  "  reason: {}\n  residual norms: {}\n"
+                  "  largest unbalanced force: {:.3e} N near ({:.5g}, {:.5g}, {:.5g}) m of the initial mesh\n"
+                  "  last checkpoint: {}\n"
+                  "  try a smaller step, more Newton iterations, or look at the results near that place",
+                  is_static() ? "load step" : "time step", time_text(grid_.time()), plural(grid_.steps_done(), "step"),
+                  time_text(grid_.next_step()), report.failure, norms, worst.force, worst.place[0], worst.place[1],
+                  worst.place[2], last_checkpoint_.string()));
+}
+
+RunOutcome Run::steps() {
+  const std::int64_t end = std::min(last_step(), request_.until.value_or(last_step()));
+  RunOutcome outcome;
+  if (grid_.steps_done() >= end) {
+    log_->info(fmt::format("nothing to do: {} of {} are completed", grid_.steps_done(), plural(end, "step")));
+    record("completed", "");
+    return {.signal = 0, .steps = grid_.steps_done()};
+  }
+  const parallel::StopSignals signals;
+  try {
+    if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
+    bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
+    while (grid_.steps_done() < end) {
+      if (!take_step()) {
+        outcome.signal = parallel::stop_requested(comm_);
+        break;
+      }
+      if (grid_.steps_done() % case_.output.every == 0) write_fields();
+      if (grid_.steps_done() % case_.output.checkpoint_every == 0) save();
+      bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
+    }
+    bar_.reset();
+    if (outcome.signal == 0) write_fields();
+    save();
+  } catch (const SolverError& error) {
+    bar_.reset();
+    record("failed", error.what());
+    throw;
+  }
+  outcome.steps = grid_.steps_done();
+  record(outcome.signal == 0 ? "completed" : "stopped",
+         outcome.signal == 0 ? "" : fmt::format("signal {}", outcome.signal));
+  if (outcome.signal != 0) {
+    log_->warning(fmt::format(
+        "stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  tunica run {}{} "
+        "--restart",
+        sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
+        request_.case_file.string(), request_.directory ? " --output " + request_.directory->string() : ""));
+  } else {
+    log_->info(fmt::format("{} in {:.1f} s ({:.1f} s set-up), {:.0f} MB of memory; results in {}",
+                           plural(grid_.steps_done(), "step"), progress_.total_seconds, progress_.set_up_seconds,
+                           progress_.peak_memory / 1e6, folder_.string()));
+  }
+  return outcome;
+}
+
+}  // namespace
+
+RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
+  return Run(c, request, comm, screen).steps();
+}
+
+RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
+  ReadCase c;
+  parallel::on_root(comm, [&] {
+    c.text = config::read_text(request.case_file);
+    auto parsed = read_case(request.case_file);
+    c.settings = std::move(parsed.value);
+    for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
+    c.mesh = load_mesh(c.settings);
+  });
+  parallel::broadcast(comm, c.text);
+  if (parallel::rank(comm) != 0) c.settings = parse_case(c.text, request.case_file);
+  return run_case(c, request, comm, screen);
+}
+
+}  // namespace tunica::stages
