@@ -25,17 +25,40 @@ TUNICA_INLINE void transpose4(BatchDouble4& a, BatchDouble4& b, BatchDouble4& c,
   d = __builtin_shuffle(t1, t3, I{2, 3, 6, 7});
 }
 
+// Four lanes of a pack, and a pack from groups of four. Register moves only: going through memory with another access
+// width would stall on store forwarding.
+template <int group>
+TUNICA_INLINE BatchDouble4 quarter(const Pack<4>& p) {
+  static_assert(group == 0);
+  return p.v;
+}
+template <int group>
+TUNICA_INLINE BatchDouble4 quarter(const Pack<8>& p) {
+  return __builtin_shufflevector(p.v, p.v, 4 * group, 4 * group + 1, 4 * group + 2, 4 * group + 3);
+}
+TUNICA_INLINE Pack<4> join(BatchDouble4 low) { return Pack<4>(low); }
+TUNICA_INLINE Pack<8> join(BatchDouble4 low, BatchDouble4 high) {
+  return Pack<8>(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7));
+}
+
+TUNICA_INLINE void load_transposed(const double* field, const std::int32_t* nodes, BatchDouble4 (&r)[4]) {
+  for (int lane = 0; lane < 4; ++lane)
+    __builtin_memcpy(&r[lane], field + 4 * static_cast<std::ptrdiff_t>(nodes[lane]), sizeof r[lane]);
+  transpose4(r[0], r[1], r[2], r[3]);
+}
+
 /// Values of one node index per lane from a field of stride 4.
 template <int W>
 TUNICA_INLINE void gather4(const double* field, const std::int32_t* nodes, Pack<W> (&out)[4]) {
-  if constexpr (W >= 4) {
-    for (int group = 0; group < W; group += 4) {
-      BatchDouble4 r[4];
-      for (int lane = 0; lane < 4; ++lane)
-        __builtin_memcpy(&r[lane], field + 4 * static_cast<std::ptrdiff_t>(nodes[group + lane]), sizeof r[lane]);
-      transpose4(r[0], r[1], r[2], r[3]);
-      for (int c = 0; c < 4; ++c) __builtin_memcpy(reinterpret_cast<char*>(&out[c].v) + 8 * group, &r[c], sizeof r[c]);
-    }
+  if constexpr (W == 8) {
+    BatchDouble4 low[4], high[4];
+    load_transposed(field, nodes, low);
+    load_transposed(field, nodes + 4, high);
+    for (int c = 0; c < 4; ++c) out[c] = join(low[c], high[c]);
+  } else if constexpr (W == 4) {
+    BatchDouble4 r[4];
+    load_transposed(field, nodes, r);
+    for (int c = 0; c < 4; ++c) out[c] = join(r[c]);
   } else {
     double values[4][W];
     for (int lane = 0; lane < W; ++lane)
@@ -44,20 +67,25 @@ TUNICA_INLINE void gather4(const double* field, const std::int32_t* nodes, Pack<
   }
 }
 
+template <int group, int W>
+TUNICA_INLINE void group_to_lanes(const Pack<W>& p0, const Pack<W>& p1, const Pack<W>& p2, const Pack<W>& p3,
+                                  BatchDouble4 (&out)[W]) {
+  out[4 * group] = quarter<group>(p0);
+  out[4 * group + 1] = quarter<group>(p1);
+  out[4 * group + 2] = quarter<group>(p2);
+  out[4 * group + 3] = quarter<group>(p3);
+  transpose4(out[4 * group], out[4 * group + 1], out[4 * group + 2], out[4 * group + 3]);
+}
+
 /// Four packs (one per component) to one contiguous group of four doubles per lane.
 template <int W>
 TUNICA_INLINE void to_lanes(const Pack<W>& p0, const Pack<W>& p1, const Pack<W>& p2, const Pack<W>& p3,
                             BatchDouble4 (&out)[W]) {
-  if constexpr (W >= 4) {
-    for (int group = 0; group < W; group += 4) {
-      BatchDouble4 r[4];
-      const Pack<W>* const p[4] = {&p0, &p1, &p2, &p3};
-      for (int c = 0; c < 4; ++c) __builtin_memcpy(&r[c], reinterpret_cast<const char*>(&p[c]->v) + 8 * group, sizeof r[c]);
-      transpose4(r[0], r[1], r[2], r[3]);
-      for (int lane = 0; lane < 4; ++lane) out[group + lane] = r[lane];
-    }
-  } else {
+  if constexpr (W == 2) {
     for (int lane = 0; lane < W; ++lane) out[lane] = BatchDouble4{p0.v[lane], p1.v[lane], p2.v[lane], p3.v[lane]};
+  } else {
+    group_to_lanes<0>(p0, p1, p2, p3, out);
+    if constexpr (W == 8) group_to_lanes<1>(p0, p1, p2, p3, out);
   }
 }
 
@@ -67,7 +95,9 @@ TUNICA_INLINE void scatter_residual(const fe::ElementVector<Pack<W>>& e, const s
   for (int a = 0; a < 4; ++a) {
     BatchDouble4 value[W];
     to_lanes<W>(e.r[a][0], e.r[a][1], e.r[a][2], e.r[a][3], value);
-    for (int lane = 0; lane < used; ++lane) {
+#pragma GCC unroll 8
+    for (int lane = 0; lane < W; ++lane) {
+      if (lane >= used) break;
       double* target = r + 4 * static_cast<std::ptrdiff_t>(nodes[a * W + lane]);
       BatchDouble4 sum;
       __builtin_memcpy(&sum, target, sizeof sum);
@@ -89,6 +119,12 @@ TUNICA_INLINE void scatter_residual_split(const fe::ElementVector<Pack<W>>& e, c
     }
 }
 
+/// Asks for the blocks of a batch ahead of time: they lie all over a matrix that is larger than the caches.
+template <int W>
+TUNICA_INLINE void prefetch_blocks(const std::int32_t* slots, int kinds, const float* blocks) {
+  for (int k = 0; k < kinds * 16 * W; ++k) __builtin_prefetch(blocks + 16 * static_cast<std::ptrdiff_t>(slots[k]), 1);
+}
+
 TUNICA_INLINE void add_column(float* target, BatchFloat4 value) {
   BatchFloat4 sum;
   __builtin_memcpy(&sum, target, sizeof sum);
@@ -105,9 +141,12 @@ TUNICA_INLINE void scatter_tangent(const fe::ElementMatrix<Pack<W>>& e, const st
       for (int j = 0; j < 4; ++j) {
         BatchDouble4 column[W];
         to_lanes<W>(e.k[a][b][0][j], e.k[a][b][1][j], e.k[a][b][2][j], e.k[a][b][3][j], column);
-        for (int lane = 0; lane < used; ++lane)
+#pragma GCC unroll 8
+        for (int lane = 0; lane < W; ++lane) {
+          if (lane >= used) break;
           add_column(blocks + 16 * static_cast<std::ptrdiff_t>(slots[(4 * a + b) * W + lane]) + 4 * j,
                      __builtin_convertvector(column[lane], BatchFloat4));
+        }
       }
 }
 
@@ -125,7 +164,9 @@ TUNICA_INLINE void scatter_tangent_split(const fe::ElementMatrix<Pack<W>>& e, co
         BatchDouble4 column[W];
         to_lanes<W>(e.k[a][b][0][j], e.k[a][b][1][j], e.k[a][b][2][j], e.k[a][b][3][j], column);
         const int kind = j < 3 ? 0 : 1;  // columns 0-2 belong to the host, column 3 to the node
-        for (int lane = 0; lane < used; ++lane) {
+#pragma GCC unroll 8
+        for (int lane = 0; lane < W; ++lane) {
+          if (lane >= used) break;
           const BatchFloat4 value = __builtin_convertvector(column[lane], BatchFloat4);
           add_column(target(kind, 4 * a + b, lane) + 4 * j, value * motion);
           add_column(target(kind + 2, 4 * a + b, lane) + 4 * j, value * pressure);

@@ -36,6 +36,7 @@ SchurPreconditioner::SchurPreconditioner(const mesh::DistributedMesh& mesh, cons
 
   divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
   gradient_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
+  inverse_diagonal_.assign(n, 0);
   scale_.assign(4 * static_cast<std::size_t>(n), 1);
   z_.resize(4 * static_cast<std::size_t>(n));
   halo_v_.assign(4 * static_cast<std::size_t>(pattern.columns_count), 0);
@@ -135,7 +136,8 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
     }
     const float* a = matrix.blocks[pattern_.diagonal[i]].a;
     diagonal = a[0] + a[5] + a[10];
-    mobility[i] = 3.0 * nodal_volume_[i] / (diagonal + 0.6 * std::clamp(sum, 0.0, 2.5 * diagonal));
+    inverse_diagonal_[i] = 3.0 / (diagonal + 0.6 * std::clamp(sum, 0.0, 2.5 * diagonal));
+    mobility[i] = nodal_volume_[i] * inverse_diagonal_[i];
   }
   mesh_.halo.update(mobility, 1);
   for (std::int32_t i = 0; i < pattern_.columns_count; ++i)
@@ -193,7 +195,8 @@ void SchurPreconditioner::update(const BlockMatrix& matrix) {
           {"-tunica_schur_pc_hypre_boomeramg_strong_threshold", "0.5"},
           {"-tunica_schur_pc_hypre_boomeramg_P_max", "4"},
           {"-tunica_schur_pc_hypre_boomeramg_agg_nl", "1"},
-          {"-tunica_schur_pc_hypre_boomeramg_relax_type_all", "l1scaled-SOR/Jacobi"}})
+          {"-tunica_schur_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
+                                   {"-tunica_schur_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
       check(PetscOptionsSetValue(nullptr, key, value));
     check(PCCreate(mesh_.comm, multigrid_.out()));
     check(PCSetOptionsPrefix(multigrid_.get(), "tunica_schur_"));
@@ -233,18 +236,15 @@ void SchurPreconditioner::apply(std::span<const double> r, std::span<double> z) 
   check(VecRestoreArrayRead(solution_.get(), &p));
   mesh_.halo.update(halo_p_, 1);
   for (std::int32_t i = 0; i < n; ++i) {
-    double s[3] = {r[4 * static_cast<std::size_t>(i)], r[4 * static_cast<std::size_t>(i) + 1],
-                   r[4 * static_cast<std::size_t>(i) + 2]};
+    double s[3] = {};
     for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
       const float* g = gradient_.data() + 4 * static_cast<std::size_t>(b);
       const double q = halo_p_[pattern_.columns[b]];
-      for (int c = 0; c < 3; ++c) s[c] -= g[c] * q;
+      for (int c = 0; c < 3; ++c) s[c] += g[c] * q;
     }
-    for (int c = 0; c < 3; ++c) z_[4 * static_cast<std::size_t>(i) + c] = static_cast<float>(s[c]);
+    for (int c = 0; c < 3; ++c)
+      z[4 * static_cast<std::size_t>(i) + c] = z_[4 * static_cast<std::size_t>(i) + c] - inverse_diagonal_[i] * s[c];
   }
-  kernels.ilu_solve(factors_, z_.data());
-  for (std::int32_t i = 0; i < n; ++i)
-    for (int c = 0; c < 3; ++c) z[4 * static_cast<std::size_t>(i) + c] = z_[4 * static_cast<std::size_t>(i) + c];
 }
 
 }  // namespace tunica::assembly

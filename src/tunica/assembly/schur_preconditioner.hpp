@@ -1,11 +1,11 @@
-// Preconditioner for the (v, p) system: incomplete factors of the velocity block, algebraic multigrid on the pressure
-// Schur complement.
+// Preconditioner for the (v, p) system, of the SIMPLE type: incomplete factors of the velocity block, algebraic multigrid
+// on the pressure Schur complement.
 //
-//   [K G] ~ [I       0] [K^ 0] [I  K^-1 G]        K^: block ILU(0) of K on each rank,
-//   [D L]   [D K^-1  I] [0  S] [0  I     ]        S ~ L - D K^-1 G, one BoomerAMG V-cycle.
+//   [K G] ~ [K^ 0] [I  H G]        K^: block ILU(0) of K on each rank,       H: inverse of a diagonal of K,
+//   [D L]   [D  S] [0  I  ]        S ~ L - D H G, one BoomerAMG V-cycle.
 //
-// D K^-1 G is a Laplacian weighted with (nodal volume) / (nodal inertia and stiffness), so it is assembled as one, on the
-// one-ring pattern of linear elements. The product D diag(K)^-1 G has 65 instead of 15 entries per row and makes the
+// D H G is a Laplacian weighted with (nodal volume) / (nodal inertia and stiffness), so it is assembled as one, on the
+// one-ring pattern of linear elements. The product of the matrices has 65 instead of 15 entries per row and makes the
 // multigrid cycle four times as dear while it saves few iterations (figures in docs/performance.md).
 #pragma once
 
@@ -64,6 +64,7 @@ class SchurPreconditioner {
   std::vector<char> follows_;                  ///< [local node]: belongs to the wall (twins included, hosts not)
   std::vector<double> nodal_volume_;           ///< [local node][1], m^3
   std::vector<double> schur_values_;
+  std::vector<double> inverse_diagonal_;       ///< [owned node], 1 / (diagonal of K with the row sum of the mass)
   parallel::MatHandle schur_;
   parallel::PcHandle multigrid_;
   parallel::VecHandle rhs_, solution_;

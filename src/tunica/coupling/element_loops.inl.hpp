@@ -50,6 +50,7 @@ void fluid_loop(const BatchView& batches, const FieldsView& fields, const fluid:
     const int used = used_lanes<W>(batches, batch);
     fe::ElementVector<Pack<W>> r;
     if constexpr (with_tangent) {
+      assembly::prefetch_blocks<W>(batches.slots + static_cast<std::ptrdiff_t>(batch) * 16 * W, 1, target.blocks);
       fe::ElementMatrix<Pack<W>> k;
       fluid::tangent(state, time, parameters, law, r, k);
       assembly::scatter_tangent<W>(k, batches.slots + static_cast<std::ptrdiff_t>(batch) * 16 * W, used, target.blocks);
@@ -75,6 +76,9 @@ void wall_loop(const BatchView& batches, const FieldsView& fields, const Law& la
     const int used = used_lanes<W>(batches, batch);
     fe::ElementVector<Pack<W>> r;
     if constexpr (with_tangent) {
+      constexpr int kinds = split ? 4 : 1;
+      assembly::prefetch_blocks<W>(batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * 16 * W, kinds,
+                                   target.blocks);
       fe::ElementMatrix<Pack<W>> k;
       if constexpr (mixed)
         wall::mixed_tangent(state, law, body, coefficients, r, k);

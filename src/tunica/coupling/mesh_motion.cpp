@@ -130,7 +130,8 @@ void MeshMotion::assemble(const ale::Parameters& parameters) {
                                    {"-tunica_mesh_pc_hypre_boomeramg_strong_threshold", "0.5"},
                                    {"-tunica_mesh_pc_hypre_boomeramg_P_max", "4"},
                                    {"-tunica_mesh_pc_hypre_boomeramg_agg_nl", "1"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_relax_type_all", "symmetric-SOR/Jacobi"}})
+                                   {"-tunica_mesh_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
+                                   {"-tunica_mesh_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
     check(PetscOptionsSetValue(nullptr, key, value));
   check(PCCreate(mesh_.comm, multigrid_.out()));
   check(PCSetOptionsPrefix(multigrid_, "tunica_mesh_"));

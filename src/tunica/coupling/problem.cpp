@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -194,6 +195,7 @@ void Problem::assemble(const State& next, const Instant& instant, bool with_tang
                                                 : LoadCoefficients{0.0, 1.0};
   boundaries_.add_loads(instant.time, instant.load_factor, fields(), loads, residual_,
                         with_tangent ? &matrix_ : nullptr);
+  for (std::size_t k = 0; k < nodal_forces_.size(); ++k) residual_[k] -= instant.load_factor * nodal_forces_[k];
   outlet_flows_ = boundaries_.outlet_flows(fields());
   std::vector<double> pressures, slopes;
   for (std::size_t k = 0; k < next.outlets.size(); ++k) {
@@ -311,10 +313,13 @@ StepReport Problem::advance(State& state, double dt) {
   next.dt = dt;
   ++next.step;
   boundaries_.prescribe(next.time, next.velocity_pressure);
-  StepReport unused;
-  timings_ = &unused.timings;
   follow_velocity(state, next, scheme);
-  move_mesh(state, next, scheme);
+  // Until the first increment the mesh goes on as it moved; the interface is moved by its velocity.
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    for (int c = 0; c < 3 && !follows_wall_[i]; ++c) {
+      const std::size_t k = at(i) + c;
+      next.displacement[k] = state.displacement[k] + dt * state.displacement_rate[k];
+    }
   synchronise_twins(next);
   evaluate_fields(state, next, instant);
 
@@ -338,6 +343,13 @@ StepReport Problem::solve_static(State& state, double factor) {
   last_instant_ = instant;
   state = std::move(next);
   return report;
+}
+
+void Problem::set_nodal_forces(std::span<const double> forces) {
+  if (forces.size() != residual_.size()) throw std::invalid_argument("set_nodal_forces: four entries per local node");
+  nodal_forces_.assign(residual_.size(), 0.0);
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    for (int c = 0; c < 3; ++c) nodal_forces_[at(mesh_.host[i]) + c] += forces[at(i) + c];
 }
 
 Problem::WorstNode Problem::worst_node() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,10 @@ class Problem {
   /// Collective.
   StepReport solve_static(State& state, double factor);
 
+  /// External forces on nodes [N], [local node][4] (the fourth entry is not used; twins add to their hosts), in every
+  /// evaluation from now on: body forces, varying tractions. Statics multiplies them by its load factor.
+  void set_nodal_forces(std::span<const double> forces);
+
   /// Residual of the lumen elements alone and of the wall elements alone for the step that `advance` last accepted:
   /// their sum vanishes at the interface. [local node][4], at t_{n+alpha_f}. Collective.
   struct PartialResiduals {
@@ -122,7 +127,7 @@ class Problem {
   std::optional<MeshMotion> mesh_motion_;
 
   std::vector<double> reference_position_, position_, velocity_pressure_, acceleration_, mesh_velocity_, displacement_;
-  std::vector<double> residual_, increment_;
+  std::vector<double> residual_, increment_, nodal_forces_;
   std::vector<assembly::RankOne> outlets_;
   std::vector<double> outlet_flows_;
   Instant last_instant_;

@@ -11,7 +11,7 @@ struct NewtonSettings {
   int max_iterations = 12;
   int line_search = 4;               ///< most halvings of an increment
   double growth = 1.2;               ///< growth of the residual norm that an increment may cause
-  double mesh_tolerance = 1e-6;      ///< of the mesh motion, relative to the forces of the interface displacement
+  double mesh_tolerance = 1e-5;      ///< of the mesh motion, relative to the forces of the interface displacement
 
   static config::Schema<NewtonSettings> schema() {
     using namespace config;
