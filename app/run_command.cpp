@@ -60,9 +60,9 @@ void add_run(CLI::App& app) {
       "  tunica run case.yaml --restart results/checkpoints/step_00000200.checkpoint\n"
       "  tunica run case.yaml --output trial --until 10      ten steps, into the folder `trial`\n"
       "Results: time series for ParaView (.pvd), histories (.csv), checkpoints, manifest.json, run.log.\n"
-      "Ctrl-C, SIGTERM and SIGUSR1 end the run after the present time step with a checkpoint. mpirun gives a run one\n"
-      "second for that, unless it is started as `mpirun --mca odls_base_sigkill_timeout 600 ...`; SIGUSR1 has no "
-      "limit.\n"
+      "Ctrl-C, SIGTERM and SIGUSR1 end the run after the present time step with a checkpoint. mpirun leaves it a\n"
+      "second for that, `mpirun --mca odls_base_sigkill_timeout 10 ...` ten, and as long as it takes when mpirun gets\n"
+      "SIGUSR1.\n"
       "Exit codes: 0 done, 2 the input is wrong, 3 the computation failed, 128 + number of the signal that stopped "
       "it.");
   const auto options = std::make_shared<Options>();

@@ -12,7 +12,8 @@ namespace tunica::parallel {
 /// since launchers pass on what the terminal delivers as well. Earlier handlers return with its end. One at a time.
 ///
 /// Open MPI's mpirun turns SIGINT and SIGTERM into SIGTERM and, one second later, SIGKILL. It passes SIGUSR1 on
-/// unchanged, and `mpirun --mca odls_base_sigkill_timeout <seconds>` gives longer for the others.
+/// unchanged, and `mpirun --mca odls_base_sigkill_timeout <seconds>` gives longer for the others (some
+/// ten seconds; after that mpirun itself gives up).
 class StopSignals {
  public:
   StopSignals();
