@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "tunica/base/error.hpp"
@@ -117,17 +118,45 @@ struct Boundaries::Builder {
   }
 
   // In FSI the rim of an opening belongs to the wall; nodes that no_slip holds stay at rest.
-  void prescribe(const mesh::Face& face, const bc::Waveform& course,
-                 const std::function<Vec3<double>(std::int32_t)>& velocity) {
-    const std::size_t waveform = b.waveforms_.size();
-    b.waveforms_.push_back(course);
+  template <class Visit>
+  void hold_inner(const mesh::Face& face, Visit visit_owned) {
     std::vector<char> done(mesh.nodes(), 0);
     for_each_node(face, [&](std::int32_t node) {
       if (interface_node[node] || done[node]) return;
       done[node] = 1;
       held[node].all();
-      if (node < mesh.owned_nodes) b.prescribed_.push_back({node, velocity(node), waveform});
+      if (node < mesh.owned_nodes) visit_owned(node);
     });
+  }
+  void prescribe(const mesh::Face& face, const bc::Waveform& course,
+                 const std::function<Vec3<double>(std::int32_t)>& velocity) {
+    const std::size_t waveform = b.waveforms_.size();
+    b.waveforms_.push_back(course);
+    hold_inner(face, [&](std::int32_t node) { b.prescribed_.push_back({node, velocity(node), waveform}); });
+  }
+  void prescribe(const mesh::Face& face, const VectorField& velocity) {
+    const std::size_t field = b.velocity_fields_.size();
+    b.velocity_fields_.push_back(velocity);
+    hold_inner(face, [&](std::int32_t node) { b.field_nodes_.push_back({node, field}); });
+  }
+
+  // Of several nearest nodes the one with the lowest original number, on any number of ranks.
+  void fix_pressure_near(const Vec3<double>& point) {
+    double nearest = std::numeric_limits<double>::max();
+    std::vector<std::int32_t> nodes;
+    for (const auto& region : mesh.regions)
+      if (region.kind == mesh::RegionKind::lumen)
+        for (const auto& element : region.elements)
+          for (const auto node : element)
+            if (node < mesh.owned_nodes) nodes.push_back(node);
+    for (const auto node : nodes) nearest = std::min(nearest, norm(mesh.points[node] - point));
+    nearest = parallel::global_min(mesh.comm, nearest);
+    std::int64_t lowest = std::numeric_limits<std::int64_t>::max();
+    for (const auto node : nodes)
+      if (norm(mesh.points[node] - point) <= nearest) lowest = std::min(lowest, mesh.original_ids[node]);
+    lowest = parallel::global_min(mesh.comm, lowest);
+    for (const auto node : nodes)
+      if (mesh.original_ids[node] == lowest) held[node].pressure = true;
   }
 
   void operator()(std::size_t index, const bc::NoSlip&) {
@@ -198,12 +227,18 @@ Boundaries::Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockP
   };
   apply(false);
   apply(true);
+  for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), field);
+  for (const auto& [name, field] : input.traction_fields) {
+    mesh.face(name);
+    traction_fields_.push_back({index_of[name], field});
+  }
   // no_slip wins on shared nodes.
   std::vector<char> still(mesh.nodes(), 0);
   for (const auto& [name, condition] : input.conditions)
     if (std::holds_alternative<bc::NoSlip>(condition))
       builder.for_each_node(mesh.face(name), [&](std::int32_t node) { still[node] = 1; });
   std::erase_if(prescribed_, [&](const PrescribedNode& p) { return still[p.node] != 0; });
+  std::erase_if(field_nodes_, [&](const FieldNode& p) { return still[p.node] != 0; });
 
   // Wall nodes of the displacement element, and wall-only parts of the mesh without fluid, have no pressure unknown.
   std::vector<char> has_pressure(mesh.nodes(), 0);
@@ -212,6 +247,7 @@ Boundaries::Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockP
       for (const auto& element : region.elements)
         for (const auto node : element) has_pressure[node] = 1;
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
+  if (input.pressure_level) builder.fix_pressure_near(*input.pressure_level);
 
   for (const auto& face : mesh.faces) {
     if (mesh.regions[face.region].kind != mesh::RegionKind::lumen) continue;
@@ -237,6 +273,10 @@ void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const 
   for (const auto& waveform : waveforms_) values.push_back(waveform.value(t));
   for (const auto& p : prescribed_)
     for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = values[p.waveform] * p.velocity[i];
+  for (const auto& p : field_nodes_) {
+    const Vec3<double> v = velocity_fields_[p.field](mesh_.points[p.node], t);
+    for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = v[i];
+  }
   mesh_.halo.update(velocity_pressure, 4);
 }
 
@@ -263,6 +303,22 @@ void Boundaries::add_lumen_load(const Load& load, double value, const FieldsView
         add_block(pattern_, *matrix, triangle[a], triangle[b], k.k[a][b]);
     }
   }
+}
+
+void Boundaries::add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
+                                    const LoadCoefficients& coefficients, std::span<double> residual,
+                                    assembly::BlockMatrix* matrix) const {
+  for (const auto& triangle : mesh_.faces[load.face].triangles) {
+    Vec3<double> x[3], traction[3];
+    corners(fields.position, triangle, x);
+    for (int a = 0; a < 3; ++a) traction[a] = load.traction(mesh_.points[triangle[a]], t);
+    const Vec3<double> sum = traction[0] + traction[1] + traction[2];
+    const double share = -factor * fluid::area(x) / 12.0;  // integral of N_a N_b: A/6 for a = b, else A/12
+    for (int a = 0; a < 3; ++a)
+      for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += share * (sum[i] + traction[a][i]);
+  }
+  const Load backflow{.face = load.face, .kind = Load::Kind::lumen_pressure};
+  add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
 }
 
 void Boundaries::add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
@@ -315,6 +371,7 @@ void Boundaries::add_loads(double t, double factor, const FieldsView& fields, co
     else
       add_wall_load(load, value, factor, fields, coefficients, residual, matrix);
   }
+  for (const auto& load : traction_fields_) add_traction_field(load, t, factor, fields, coefficients, residual, matrix);
   for (const auto& outlet : outlets_) {  // the pressure of an outlet is added by add_outlets
     const Load backflow{.face = outlet.face, .kind = Load::Kind::lumen_pressure};
     add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);

@@ -1,6 +1,7 @@
 // The conditions of a case, bound to the faces of a distributed mesh.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,11 +22,23 @@ struct LoadCoefficients {
   double displacement = 0.0;  ///< d(u at t_{n+alpha_f}) / d(unknown)
 };
 
+/// A vector as a function of the reference position [m] and the time [s]. Called on every rank that holds the node.
+using VectorField = std::function<Vec3<double>(const Vec3<double>&, double)>;
+
+/// A lumen face may have the condition `fixed` here, which then holds the velocity: along the normal it makes a plane
+/// of symmetry (free slip).
 struct BoundaryInput {
-  std::vector<std::pair<std::string, bc::Condition>> conditions;        ///< face name, condition
-  std::vector<std::pair<std::string, std::string>> interfaces;          ///< (lumen face, wall face)
-  bool wall_has_pressure = true;                                        ///< mixed wall element
+  std::vector<std::pair<std::string, bc::Condition>> conditions;  ///< face name, condition
+  std::vector<std::pair<std::string, std::string>> interfaces;    ///< (lumen face, wall face)
+  bool wall_has_pressure = true;                                  ///< mixed wall element
   std::optional<fluid::Parameters> fluid;
+
+  // Conditions on lumen faces that only code can give, such as exact solutions.
+  std::vector<std::pair<std::string, VectorField>> velocity_fields;  ///< face, velocity at t_{n+1} [m/s]
+  /// Face, traction [Pa] on the current face at t_{n+alpha_f}, interpolated linearly between the nodes.
+  std::vector<std::pair<std::string, VectorField>> traction_fields;
+  /// Lumen flow with prescribed velocity all around: p = 0 at the lumen node nearest to this point [m].
+  std::optional<Vec3<double>> pressure_level;
 };
 
 class Boundaries {
@@ -68,6 +81,14 @@ class Boundaries {
     Vec3<double> vector{};
     bc::Support support{};
   };
+  struct FieldNode {
+    std::int32_t node;
+    std::size_t field;  ///< in velocity_fields_
+  };
+  struct TractionField {
+    std::size_t face;
+    VectorField traction;
+  };
   struct OutletFace {
     std::size_t face;
     std::variant<bc::Resistance, bc::Rcr> model;
@@ -76,6 +97,9 @@ class Boundaries {
 
   void add_lumen_load(const Load& load, double value, const FieldsView& fields, const LoadCoefficients& coefficients,
                       std::span<double> residual, assembly::BlockMatrix* matrix) const;
+  void add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
+                          const LoadCoefficients& coefficients, std::span<double> residual,
+                          assembly::BlockMatrix* matrix) const;
   void add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
                      const LoadCoefficients& coefficients, std::span<double> residual,
                      assembly::BlockMatrix* matrix) const;
@@ -87,7 +111,10 @@ class Boundaries {
   std::vector<assembly::NodeConstraint> mesh_constraints_;
   std::vector<bc::Waveform> waveforms_;
   std::vector<PrescribedNode> prescribed_;
+  std::vector<VectorField> velocity_fields_;
+  std::vector<FieldNode> field_nodes_;
   std::vector<Load> loads_;
+  std::vector<TractionField> traction_fields_;
   std::vector<OutletFace> outlets_;
   std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_
   std::vector<std::int32_t> projector_of_;

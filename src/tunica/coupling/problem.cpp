@@ -63,6 +63,8 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
   if (wall != input.wall.has_value())
     throw InputError("wall", wall ? "the mesh has a wall but the case has no wall law" : "there is no wall mesh",
                      "give both a wall mesh and a `wall` section, or neither");
+  if (wall && input.mesh_displacement)
+    throw InputError("mesh_displacement", "the lumen mesh follows the wall", "prescribe it only without a wall");
   if (wall) law_ = input.wall->law();
   for (const auto& region : mesh.regions) {
     const int width = static_cast<int>(isa_);
@@ -141,10 +143,21 @@ void Problem::follow_velocity(const State& old_state, State& next, const TimeSch
     }
 }
 
+void Problem::prescribe_mesh(State& state) const {
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i) {
+    const Vec3<double> u = input_.mesh_displacement(mesh_.points[i], state.time);
+    for (int c = 0; c < 3; ++c) state.displacement[at(i) + c] = u[c];
+  }
+}
+
 int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& scheme) {
-  if (!mesh_motion_) return 0;
+  if (!moving()) return 0;
   const Stopwatch watch(timings_->mesh);
-  const int iterations = mesh_motion_->solve(next.displacement, input_.newton.mesh_tolerance);
+  int iterations = 0;
+  if (mesh_motion_)
+    iterations = mesh_motion_->solve(next.displacement, input_.newton.mesh_tolerance);
+  else
+    prescribe_mesh(next);
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
     if (!follows_wall_[i])
       for (int c = 0; c < 3; ++c) {
@@ -169,14 +182,13 @@ void Problem::add_elements(mesh::RegionKind kind, const Instant& instant, std::s
                     {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, target);
       } else {
         // The constraint rows are scaled so that their coupling to the velocity is that of the continuity equation.
-        const wall::Coefficients c =
-            instant.scheme ? wall::Coefficients{instant.scheme->acceleration_per_unknown(),
-                                                instant.scheme->displacement_per_unknown(),
-                                                instant.scheme->velocity_per_unknown() /
-                                                    instant.scheme->displacement_per_unknown()}
-                           : wall::Coefficients{};
-        loops.wall(BatchView(*batches), fields(), *law_, input_.wall->element == wall::Element::mixed, input_.wall->body(), c,
-                   target);
+        const wall::Coefficients c = instant.scheme ? wall::Coefficients{instant.scheme->acceleration_per_unknown(),
+                                                                         instant.scheme->displacement_per_unknown(),
+                                                                         instant.scheme->velocity_per_unknown() /
+                                                                             instant.scheme->displacement_per_unknown()}
+                                                    : wall::Coefficients{};
+        loops.wall(BatchView(*batches), fields(), *law_, input_.wall->element == wall::Element::mixed,
+                   input_.wall->body(), c, target);
       }
     }
   }
@@ -211,13 +223,14 @@ void Problem::assemble(const State& next, const Instant& instant, bool with_tang
 }
 
 std::string Problem::mesh_failure() const {
-  if (!mesh_motion_) return {};
+  if (!moving()) return {};
   const MeshQuality worst = mesh_quality(mesh_, position_);
   if (worst.smallest > input_.mesh_motion.minimum_quality) return {};
-  return fmt::format("the moving lumen mesh is spoilt: element {} near ({:.5g}, {:.5g}, {:.5g}) m has {:.3g} of its "
-                     "initial quality, allowed is {:.3g}",
-                     worst.element, worst.place[0], worst.place[1], worst.place[2], worst.smallest,
-                     input_.mesh_motion.minimum_quality);
+  return fmt::format(
+      "the moving lumen mesh is spoilt: element {} near ({:.5g}, {:.5g}, {:.5g}) m has {:.3g} of its "
+      "initial quality, allowed is {:.3g}",
+      worst.element, worst.place[0], worst.place[1], worst.place[2], worst.smallest,
+      input_.mesh_motion.minimum_quality);
 }
 
 // next = start + step_length * increment, and all that follows from it.
@@ -296,7 +309,8 @@ StepReport Problem::newton(const State& old_state, State& next, const Instant& i
         assemble(next, instant, false);
         new_norm = solver_.norm(std::span(residual_).first(owned));
         if (std::isfinite(new_norm) && (new_norm <= settings.growth * norm || new_norm <= target)) break;
-        report.failure = fmt::format("the residual grows from {:.3e} to {:.3e} along the Newton direction", norm, new_norm);
+        report.failure =
+            fmt::format("the residual grows from {:.3e} to {:.3e} along the Newton direction", norm, new_norm);
       }
       if (halving == settings.line_search) return report;
     }

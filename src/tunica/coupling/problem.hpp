@@ -23,6 +23,9 @@ struct ProblemInput {
   std::optional<wall::Parameters> wall;
   ale::Parameters mesh_motion;
   BoundaryInput boundary;
+  /// Prescribed displacement [m] of the lumen mesh, for flow without a wall. The start state must hold the displacement
+  /// and the rate of its own time.
+  VectorField mesh_displacement;
   double rho_infinity = 0.5;
   NewtonSettings newton;
   LinearSettings linear;
@@ -30,10 +33,10 @@ struct ProblemInput {
 
 /// What one Newton iteration did.
 struct NewtonRecord {
-  double norm = 0;            ///< of the residual it started from
+  double norm = 0;  ///< of the residual it started from
   int linear_iterations = 0;
   int mesh_iterations = 0;
-  double step_length = 1;     ///< below 1 after a line search
+  double step_length = 1;  ///< below 1 after a line search
 };
 
 /// Seconds spent.
@@ -89,7 +92,7 @@ class Problem {
   const Boundaries& boundaries() const { return boundaries_; }
   const mesh::DistributedMesh& mesh() const { return mesh_; }
   const ProblemInput& input() const { return input_; }
-  bool moving() const { return mesh_motion_.has_value(); }
+  bool moving() const { return mesh_motion_.has_value() || input_.mesh_displacement; }
 
  private:
   /// How the residual depends on the Newton unknown, and at which instant it is evaluated.
@@ -105,6 +108,7 @@ class Problem {
 
   void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
   void follow_velocity(const State& old_state, State& next, const assembly::TimeScheme& scheme) const;
+  void prescribe_mesh(State& state) const;
   int move_mesh(const State& old_state, State& next, const assembly::TimeScheme& scheme);
   void synchronise_twins(State& state) const;
   void add_elements(mesh::RegionKind kind, const Instant& instant, std::span<double> residual, float* blocks) const;
