@@ -121,10 +121,10 @@ std::int32_t ilu_factorise(const IluFactors& f, std::int32_t* position) {
           subtract_product(f.blocks + 12 * static_cast<std::ptrdiff_t>(position[j]), lower, upper);
       }
     }
+    for (std::int32_t b = f.row_begin[i]; b < f.row_begin[i + 1]; ++b) position[f.columns[b]] = -1;
     float inverse[12];
     if (!invert(diagonal, inverse)) return i;
     for (int j = 0; j < 12; ++j) diagonal[j] = inverse[j];
-    for (std::int32_t b = f.row_begin[i]; b < f.row_begin[i + 1]; ++b) position[f.columns[b]] = -1;
   }
   return -1;
 }
