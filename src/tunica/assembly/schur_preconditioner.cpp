@@ -127,7 +127,7 @@ void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
 void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
   // Mobility of a node: volume over the mean diagonal of K, where the share of the consistent mass (its row sum is 2.5
   // times its diagonal) counts with its row sum, since pressure gradients are smooth.
-  std::vector<double> mobility(pattern_.columns_count, 0.0), area(3 * static_cast<std::size_t>(pattern_.columns_count), 0.0);
+  std::vector<double> mobility(pattern_.columns_count, 0.0);
   for (std::int32_t i = 0; i < pattern_.rows; ++i) {
     double sum = 0, diagonal = 0;
     for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
@@ -168,7 +168,7 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
       if (mesh_.host[column] == i && column != i) twin = column;
       for (int c = 0; c < 3; ++c) n[other_side ? 1 : 0][c] += matrix.blocks[b].a[12 + c];
     }
-    const double h = mobility[i] / nodal_volume_[i];
+    const double h = inverse_diagonal_[i];
     const auto product = [&](int p, int q) { return h * (n[p][0] * n[q][0] + n[p][1] * n[q][1] + n[p][2] * n[q][2]); };
     schur_values_[pressure_pattern_.diagonal[i]] += product(0, 0);
     if (twin >= 0) {
