@@ -74,6 +74,7 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
       for (const auto& element : region.elements)
         for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
   }
+  negligible_ = negligible_forces();
   if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
 
   const std::size_t n = at(mesh.nodes());
@@ -83,6 +84,25 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
   position_ = reference_position_;
   for (auto* field : {&velocity_pressure_, &acceleration_, &mesh_velocity_, &displacement_, &residual_, &increment_})
     field->assign(n, 0.0);
+}
+
+// A wall at rest leaves a residual of its modulus times the precision of arithmetic, and when loads set in later there
+// is nothing larger that it could be compared with. So the norm of a pressure of 1e-12 shear moduli on its surface, ten
+// thousand times the precision, counts as nothing.
+std::vector<double> Problem::negligible_forces() const {
+  if (!law_) return {};
+  const double mu = std::visit([](const auto& law) { return law.shear_modulus_at_rest(); }, *law_);
+  std::vector<double> forces(at(mesh_.nodes()), 0.0);
+  for (const auto& face : mesh_.faces) {
+    if (mesh_.regions[face.region].kind != mesh::RegionKind::wall) continue;
+    for (const auto& t : face.triangles) {
+      const Vec3<double> twice = cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+      for (const auto node : t)
+        for (int c = 0; c < 3; ++c) forces[at(mesh_.host[node]) + c] += 1e-12 * mu / 6.0 * twice[c];
+    }
+  }
+  forces.resize(at(mesh_.owned_nodes));
+  return forces;
 }
 
 State Problem::initial_state() const {
@@ -261,7 +281,7 @@ StepReport Problem::newton(const State& old_state, State& next, const Instant& i
   const std::size_t owned = at(mesh_.owned_nodes);
   std::vector<double> negative(owned), start;
 
-  double norm = 0, target = 0;
+  double norm = 0, target = 0, noise = 0;
   for (int k = 0;; ++k) {
     if (k == 0) {
       assemble(next, instant, true);
@@ -270,13 +290,15 @@ StepReport Problem::newton(const State& old_state, State& next, const Instant& i
       norm = solver_.norm(std::span(residual_).first(owned));
       next.residual_reference = std::max(next.residual_reference, norm);
       target = settings.relative_tolerance * std::max(norm, settings.reference_fraction * next.residual_reference);
+      if (!negligible_.empty()) noise = solver_.norm(negligible_);
+      target = std::max(target, noise);
     }
     report.final_norm = norm;
     if (!std::isfinite(norm)) {
       report.failure = "the residual is not a finite number";
       return report;
     }
-    if (norm <= target && (k > 0 || norm == 0.0)) {
+    if (norm <= target && (k > 0 || norm <= noise)) {
       report.converged = true;
       return report;
     }

@@ -117,6 +117,7 @@ class Problem {
   void update(const State& old_state, State& next, const Instant& instant, std::span<const double> start,
               double step_length, NewtonRecord& record);
   std::string mesh_failure() const;
+  std::vector<double> negligible_forces() const;
 
   const mesh::DistributedMesh& mesh_;
   ProblemInput input_;
@@ -125,6 +126,7 @@ class Problem {
   Boundaries boundaries_;
   std::vector<Regional> regions_;
   std::optional<wall::Law> law_;
+  std::vector<double> negligible_;  ///< forces whose norm is noise, [owned node][4]; empty without a wall
   std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
   assembly::BlockMatrix matrix_;
   assembly::LinearSolver solver_;
