@@ -1,0 +1,145 @@
+// What the verification of the wall shares: set-up, fields from functions, sums over elements.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tunica/coupling/problem.hpp"
+#include "tunica/mesh/generate.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/wall/output.hpp"
+
+namespace tunica::verification {
+
+using coupling::Problem;
+using coupling::ProblemInput;
+using coupling::State;
+using wall::Element;
+using wall::VolumetricEnergy;
+
+inline std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
+
+/// printf on rank 0.
+[[gnu::format(printf, 1, 2)]] inline void print(const char* format, ...) {
+  if (parallel::rank(MPI_COMM_WORLD) != 0) return;
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vprintf(format, arguments);
+  va_end(arguments);
+  std::fflush(stdout);
+}
+
+inline const char* name(Element element) { return element == Element::mixed ? "mixed" : "displacement"; }
+
+struct SolidCase {
+  Element element = Element::mixed;
+  double shear_modulus = 1.0;  ///< Pa
+  double poisson_ratio = 0.5;
+  double density = 1000.0;     ///< kg/m^3
+  VolumetricEnergy energy = VolumetricEnergy::simo_taylor;
+};
+
+/// Wall alone, with tolerances that leave the discretisation error only.
+inline ProblemInput solid_input(const SolidCase& c, std::vector<std::pair<std::string, bc::Condition>> conditions) {
+  ProblemInput in;
+  in.wall = wall::Parameters{};
+  in.wall->element = c.element;
+  in.wall->density = c.density;
+  in.wall->volumetric_energy = c.energy;
+  auto& elastic = std::get<0>(in.wall->material).elastic;
+  elastic.shear_modulus = c.shear_modulus;
+  elastic.poisson_ratio = c.poisson_ratio;
+  in.boundary.wall_has_pressure = c.element == Element::mixed;
+  in.boundary.conditions = std::move(conditions);
+  in.newton.relative_tolerance = 1e-9;
+  in.newton.reference_fraction = 1e-12;
+  in.newton.max_iterations = 30;
+  in.newton.growth = 1e3;
+  in.linear.tolerance = 1e-6;
+  return in;
+}
+
+inline bc::Fixed held(bool x, bool y, bool z) {
+  bc::Fixed fixed;
+  fixed.directions = {x, y, z, false, false};
+  return fixed;
+}
+
+inline mesh::DistributedMesh share(const mesh::MeshData& data) {
+  return mesh::distribute(parallel::rank(MPI_COMM_WORLD) == 0 ? data : mesh::MeshData{}, MPI_COMM_WORLD);
+}
+
+/// u(X) at every node. Where the boundary is held it stays, so this prescribes boundary displacements in statics.
+template <class Function>
+void set_displacement(const mesh::DistributedMesh& mesh, State& state, const Function& u) {
+  for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
+    const Vec3<double> value = u(mesh.points[i]);
+    for (int c = 0; c < 3; ++c) state.displacement[at(i) + c] = value[c];
+  }
+}
+
+/// Largest of value(node) over all owned nodes of all ranks.
+template <class Function>
+double largest(const mesh::DistributedMesh& mesh, const Function& value) {
+  double result = 0;
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) result = std::max(result, value(i));
+  return parallel::global_max(mesh.comm, result);
+}
+
+struct ElementData {
+  Vec3<double> X[4];
+  wall::ElementState<double> state;
+};
+
+inline ElementData gather(const mesh::DistributedMesh& mesh, const State& state,
+                          const std::array<std::int32_t, 4>& nodes) {
+  ElementData e;
+  for (int a = 0; a < 4; ++a) {
+    e.X[a] = mesh.points[nodes[a]];
+    e.state.pressure[a] = state.velocity_pressure[at(nodes[a]) + 3];
+    for (int c = 0; c < 3; ++c) {
+      e.state.displacement[a][c] = state.displacement[at(nodes[a]) + c];
+      e.state.acceleration[a][c] = state.acceleration[at(nodes[a]) + c];
+    }
+  }
+  e.state.reference = fe::gradients(e.X);
+  return e;
+}
+
+/// Calls visit(ElementData) for the wall elements that this rank counts.
+template <class Visit>
+void for_each_element(const mesh::DistributedMesh& mesh, const State& state, const Visit& visit) {
+  for (const auto& region : mesh.regions)
+    if (region.kind == mesh::RegionKind::wall)
+      for (std::int32_t k = 0; k < region.owned_elements; ++k) visit(gather(mesh, state, region.elements[k]));
+}
+
+inline Mat3<double> cauchy_stress(const ElementData& e, const wall::Parameters& p) {
+  const auto s = std::visit(
+      [&](const auto& law) {
+        return p.element == Element::mixed ? wall::mixed_cauchy_stress(e.state, law)
+                                           : wall::displacement_cauchy_stress(e.state, law, p.body());
+      },
+      p.law());
+  return {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
+}
+
+/// Takes the load factor to one in `steps` steps, each starting from the last; returns the last report.
+inline coupling::StepReport load(Problem& problem, State& state, int steps) {
+  coupling::StepReport report;
+  for (int k = 1; k <= steps; ++k) {
+    report = problem.solve_static(state, static_cast<double>(k) / steps);
+    EXPECT_TRUE(report.converged) << report.failure;
+    if (!report.converged) break;
+  }
+  return report;
+}
+
+}  // namespace tunica::verification
