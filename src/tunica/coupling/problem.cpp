@@ -74,6 +74,10 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
       for (const auto& element : region.elements)
         for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
   }
+  // A ghost may be a wall node although no wall element is seen here: its owner knows.
+  std::vector<double> follows(follows_wall_.begin(), follows_wall_.end());
+  mesh.halo.update(follows, 1);
+  std::transform(follows.begin(), follows.end(), follows_wall_.begin(), [](double f) { return f > 0.5 ? 1 : 0; });
   negligible_ = negligible_forces();
   if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
 
