@@ -1,6 +1,6 @@
-// Inflation of a displacement-element cylinder with a direct solver. The iterative solver of the program is not made for
-// the locked displacement element (its tangent is K/mu times worse conditioned), and locking has to be seen, not the
-// solver's limit: so the element kernels are assembled here into a banded matrix.
+// Inflation of a displacement-element cylinder with a direct solver. The iterative solver of the program is not made
+// for the locked displacement element (its tangent is K/mu times worse conditioned), and locking has to be seen, not
+// the solver's limit: so the element kernels are assembled here into a banded matrix.
 #pragma once
 
 #include "tunica/wall/surface.hpp"
@@ -12,8 +12,12 @@ namespace tunica::verification {
 class BandedNewton {
  public:
   BandedNewton(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters, std::vector<char> held)
-      : mesh_(mesh), parameters_(parameters), held_(std::move(held)), n_(3 * static_cast<std::size_t>(mesh.nodes())),
-        matrix_(n_ * n_), residual_(n_) {
+      : mesh_(mesh),
+        parameters_(parameters),
+        held_(std::move(held)),
+        n_(3 * static_cast<std::size_t>(mesh.nodes())),
+        matrix_(n_ * n_),
+        residual_(n_) {
     for (const auto& element : mesh.regions[0].elements)
       for (const auto a : element)
         for (const auto b : element)

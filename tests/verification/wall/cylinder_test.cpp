@@ -13,11 +13,16 @@ constexpr double A = 0.010, B = 0.012;  // m
 constexpr double mu = 5e4;              // Pa
 
 mesh::CylinderSizes sizes(int radial) {
-  return {.inner = A, .outer = B, .length = (B - A) / radial, .cells_radial = radial, .cells_around = 8 * radial,
+  return {.inner = A,
+          .outer = B,
+          .length = (B - A) / radial,
+          .cells_radial = radial,
+          .cells_around = 8 * radial,
           .cells_along = 1};
 }
 
-std::vector<std::pair<std::string, bc::Condition>> plane_strain(const bc::Condition& inner, const bc::Condition& outer) {
+std::vector<std::pair<std::string, bc::Condition>> plane_strain(const bc::Condition& inner,
+                                                                const bc::Condition& outer) {
   return {{"wall_inner", inner},
           {"wall_outer", outer},
           {"wall_inlet", held(false, false, true)},
@@ -75,7 +80,8 @@ WallStress wall_stress(const mesh::DistributedMesh& mesh, const State& state, co
   parallel::global_sum(mesh.comm, M);
   const Mat3<double> normal{{{M[0], M[1], M[2]}, {M[1], M[2], M[3]}, {M[2], M[3], M[4]}}};
   const Mat3<double> inverted = inverse(normal);
-  const Vec3<double> hoop = inverted * Vec3<double>{{M[5], M[6], M[7]}}, radial = inverted * Vec3<double>{{M[8], M[9], M[10]}};
+  const Vec3<double> hoop = inverted * Vec3<double>{{M[5], M[6], M[7]}},
+                     radial = inverted * Vec3<double>{{M[8], M[9], M[10]}};
   WallStress result{hoop[0], radial[0], 0};
   for (const auto& q : samples)
     result.hoop_scatter = std::max(result.hoop_scatter, std::abs(q.hoop - (hoop[0] + q.r * (hoop[1] + q.r * hoop[2]))));
@@ -170,8 +176,8 @@ TEST(ThickCylinder, ClosedFormEqualsTheTable) {
     p_error = std::max(p_error, std::abs(exact.pressure / 1e3 - row[2]));
     hoop_error = std::max(hoop_error, std::abs(exact.hoop_inner / 1e3 - row[5]));
   }
-  print("thick cylinder: closed form against the table, %zu rows: pressure %.1e kPa, hoop stress %.1e kPa\n", rows->size(),
-        p_error, hoop_error);
+  print("thick cylinder: closed form against the table, %zu rows: pressure %.1e kPa, hoop stress %.1e kPa\n",
+        rows->size(), p_error, hoop_error);
   EXPECT_LT(p_error, 1e-6);
   EXPECT_LT(hoop_error, 1e-5);
 }
@@ -180,13 +186,14 @@ TEST(ThickCylinder, ClosedFormEqualsTheTable) {
 TEST(ThickCylinder, MixedElementAndLockingOfTheDisplacementElement) {
   const double a = 0.012;
   const Inflated exact = exact_inflation(a);
-  print("thick cylinder A 10 B 12 mm, mu 50 kPa, p %.4f kPa, exact (nu 0.5): u %.4f mm, hoop %.3f kPa\n"
-        "  element        nu      cells  u inner mm  error %%   hoop inner kPa  error %%  scatter %%\n",
-        exact.pressure / 1e3, 1e3 * (a - A), exact.hoop_inner / 1e3);
+  print(
+      "thick cylinder A 10 B 12 mm, mu 50 kPa, p %.4f kPa, exact (nu 0.5): u %.4f mm, hoop %.3f kPa\n"
+      "  element        nu      cells  u inner mm  error %%   hoop inner kPa  error %%  scatter %%\n",
+      exact.pressure / 1e3, 1e3 * (a - A), exact.hoop_inner / 1e3);
   const auto run = [&](Element element, double nu, int radial) {
-    const Solution s = element == Element::mixed
-                           ? inflate({element, mu, nu}, radial, 4, bc::Pressure{bc::WaveformInput{exact.pressure}}, bc::Free{})
-                           : inflate_directly(mu, nu, radial, 4, exact.pressure);
+    const Solution s = element == Element::mixed ? inflate({element, mu, nu}, radial, 4,
+                                                           bc::Pressure{bc::WaveformInput{exact.pressure}}, bc::Free{})
+                                                 : inflate_directly(mu, nu, radial, 4, exact.pressure);
     const double u_error = s.inner_displacement / (a - A) - 1, hoop_error = s.stress.hoop_inner / exact.hoop_inner - 1;
     print("  %-12s %7.4f    %2d     %.5f    %+7.3f    %.4f        %+7.3f   %.2f\n", name(element), nu, radial,
           1e3 * s.inner_displacement, 100 * u_error, s.stress.hoop_inner / 1e3, 100 * hoop_error,
@@ -223,7 +230,8 @@ TEST(ThickCylinder, SmallStrains) {
                            : inflate_directly(G, nu, 4, 1, p);
     const double u_a = 1e-3 * scale * rows->front()[1], u_b = 1e-3 * scale * rows->back()[1];
     const double hoop = 1e3 * scale * rows->front()[3];
-    const double errors[3] = {s.inner_displacement / u_a - 1, s.outer_displacement / u_b - 1, s.stress.hoop_inner / hoop - 1};
+    const double errors[3] = {s.inner_displacement / u_a - 1, s.outer_displacement / u_b - 1,
+                              s.stress.hoop_inner / hoop - 1};
     print("Lame, nu 0.49, %-12s: errors %%: u inner %+.3f, u outer %+.3f, hoop inner %+.3f\n", name(element),
           100 * errors[0], 100 * errors[1], 100 * errors[2]);
     if (element == Element::mixed) {
@@ -239,14 +247,16 @@ TEST(ThickCylinder, TissueSupport) {
   const double G = E / (2 * (1 + nu)), lambda = 2 * G * nu / (1 - 2 * nu);
   const auto exact = [&](double k) {
     // sigma_rr(A) = -p, sigma_rr(B) + k u(B) = 0
-    const double a11 = 2 * (lambda + G), a12 = -2 * G / (A * A), a21 = 2 * (lambda + G) + k * B, a22 = -2 * G / (B * B) + k / B;
+    const double a11 = 2 * (lambda + G), a12 = -2 * G / (A * A), a21 = 2 * (lambda + G) + k * B,
+                 a22 = -2 * G / (B * B) + k / B;
     const double det = a11 * a22 - a12 * a21;
     const double c1 = -p * a22 / det, c2 = p * a21 / det;
     return std::pair(c1 * A + c2 / A, c1 * B + c2 / B);
   };
   for (const double k : {0.0, k_s}) {
     const auto [u_a, u_b] = exact(k);
-    const Solution s = inflate({Element::mixed, G, nu}, 4, 1, bc::Pressure{bc::WaveformInput{p}}, bc::Support{.stiffness = k});
+    const Solution s =
+        inflate({Element::mixed, G, nu}, 4, 1, bc::Pressure{bc::WaveformInput{p}}, bc::Support{.stiffness = k});
     const double errors[2] = {s.inner_displacement / u_a - 1, s.outer_displacement / u_b - 1};
     print("tissue support k_s %.0e N/m^3: u inner %.4e m (exact %.4e, %+.3f %%), u outer %+.3f %%\n", k,
           s.inner_displacement, u_a, 100 * errors[0], 100 * errors[1]);

@@ -12,8 +12,8 @@ namespace {
 
 using D = Dual<double, 3>;
 
-constexpr double mu = 5e4;   // Pa
-constexpr double L = 0.01;   // edge of the block [m]
+constexpr double mu = 5e4;  // Pa
+constexpr double L = 0.01;  // edge of the block [m]
 
 // sin x where Dual has none.
 double sine(double x) { return std::sin(x); }
@@ -21,9 +21,13 @@ double cosine(double x) { return std::cos(x); }
 template <class T, int N>
 Dual<T, N> cosine(const Dual<T, N>& x);
 template <class T, int N>
-Dual<T, N> sine(const Dual<T, N>& x) { return Dual<T, N>::chain(x, sine(x.value), cosine(x.value)); }
+Dual<T, N> sine(const Dual<T, N>& x) {
+  return Dual<T, N>::chain(x, sine(x.value), cosine(x.value));
+}
 template <class T, int N>
-Dual<T, N> cosine(const Dual<T, N>& x) { return Dual<T, N>::chain(x, cosine(x.value), -sine(x.value)); }
+Dual<T, N> cosine(const Dual<T, N>& x) {
+  return Dual<T, N>::chain(x, cosine(x.value), -sine(x.value));
+}
 
 /// General smooth motion with volume change; the pressure follows from the volumetric energy.
 struct Compressible {
@@ -36,7 +40,9 @@ struct Compressible {
              X[2] + a * cosine(k * X[0]) * sine(k * X[1])}};
   }
   template <class T>
-  T pressure(const Vec3<T>&) const { return T(0.0); }
+  T pressure(const Vec3<T>&) const {
+    return T(0.0);
+  }
 };
 
 /// Two successive shears, J = 1 exactly, with a pressure of its own: incompressible.
@@ -67,7 +73,9 @@ struct NearlyIsochoric {
     return {{x, X[1] + a * sine(k * x), X[2] + small * cosine(k * X[0]) * sine(k * (X[1] + X[2]))}};
   }
   template <class T>
-  T pressure(const Vec3<T>&) const { return T(0.0); }
+  T pressure(const Vec3<T>&) const {
+    return T(0.0);
+  }
   double bulk() const { return 2.0 * mu * (1.0 + poisson_ratio) / (3.0 * (1.0 - 2.0 * poisson_ratio)); }
 };
 
@@ -217,7 +225,8 @@ void check_orders(const char* title, Element element, const Motion& motion, std:
     if (n == 6)
       print("  %4d   %.3e        %.3e        %.3e\n", n, e.u, e.gradient, e.pressure);
     else
-      print("  %4d   %.3e  %.2f  %.3e  %.2f  %.3e  %.2f\n", n, e.u, order[0], e.gradient, order[1], e.pressure, order[2]);
+      print("  %4d   %.3e  %.2f  %.3e  %.2f  %.3e  %.2f\n", n, e.u, order[0], e.gradient, order[1], e.pressure,
+            order[2]);
     if (n == 24) {
       EXPECT_GT(order[0], asked[0]);
       EXPECT_GT(order[1], asked[1]);

@@ -60,13 +60,12 @@ void linear_displacement(Element element, double nu) {
 void uniform_traction(Element element, double nu) {
   const auto mesh = share(shaken_box(4));
   const double tension = 0.2 * mu;
-  Problem problem(mesh, solid_input({element, mu, nu},
-                                    {{"x_min", held(true, false, false)},
-                                     {"y_min", held(false, true, false)},
-                                     {"z_min", held(false, false, true)},
-                                     {"x_max", bc::Pressure{bc::WaveformInput{-tension}}},
-                                     {"y_max", bc::Free{}},
-                                     {"z_max", bc::Free{}}}));
+  Problem problem(mesh, solid_input({element, mu, nu}, {{"x_min", held(true, false, false)},
+                                                        {"y_min", held(false, true, false)},
+                                                        {"z_min", held(false, false, true)},
+                                                        {"x_max", bc::Pressure{bc::WaveformInput{-tension}}},
+                                                        {"y_max", bc::Free{}},
+                                                        {"z_max", bc::Free{}}}));
   State state = problem.initial_state();
   load(problem, state, 2);
   double error = 0;

@@ -42,7 +42,7 @@ struct SolidCase {
   Element element = Element::mixed;
   double shear_modulus = 1.0;  ///< Pa
   double poisson_ratio = 0.5;
-  double density = 1000.0;     ///< kg/m^3
+  double density = 1000.0;  ///< kg/m^3
   VolumetricEnergy energy = VolumetricEnergy::simo_taylor;
 };
 

@@ -21,8 +21,7 @@ template <class Function>
 void set_velocity(const mesh::DistributedMesh& mesh, State& state, const Function& v) {
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
     const Vec3<double> value = v(mesh.points[i]);
-    for (int c = 0; c < 3; ++c)
-      state.velocity_pressure[at(i) + c] = state.displacement_rate[at(i) + c] = value[c];
+    for (int c = 0; c < 3; ++c) state.velocity_pressure[at(i) + c] = state.displacement_rate[at(i) + c] = value[c];
   }
 }
 
@@ -40,7 +39,9 @@ class Crossings {
     last_t_ = t;
     last_ = value;
   }
-  double period() const { return count_ > 1 ? (latest_ - first_) / (count_ - 1) : std::numeric_limits<double>::quiet_NaN(); }
+  double period() const {
+    return count_ > 1 ? (latest_ - first_) / (count_ - 1) : std::numeric_limits<double>::quiet_NaN();
+  }
 
  private:
   bool started_ = false;
@@ -66,8 +67,13 @@ double probe(const mesh::DistributedMesh& mesh, const State& state, const std::s
 struct Ring {
   static constexpr double A = 0.010, B = 0.012, mu = 5e4, density = 1100;
   static mesh::MeshData data(int radial) {
-    return mesh::thick_cylinder({.inner = A, .outer = B, .length = (B - A) / radial, .cells_radial = radial,
-                                 .cells_around = 8 * radial, .cells_along = 1}, mesh::Sector::quarter);
+    return mesh::thick_cylinder({.inner = A,
+                                 .outer = B,
+                                 .length = (B - A) / radial,
+                                 .cells_radial = radial,
+                                 .cells_around = 8 * radial,
+                                 .cells_along = 1},
+                                mesh::Sector::quarter);
   }
   static Conditions conditions() {
     return {{"wall_inner", bc::Free{}},
@@ -178,8 +184,8 @@ TEST(Vibration, EnergyStaysBoundedWithoutDamping) {
   }
 }
 
-/// With nu = 0.5 the equations are differential-algebraic with a constraint on positions, for which a scheme without any
-/// numerical damping is weakly unstable (Cardona & Geradin 1989): rho_infinity = 1 fails after some hundred steps.
+/// With nu = 0.5 the equations are differential-algebraic with a constraint on positions, for which a scheme without
+/// any numerical damping is weakly unstable (Cardona & Geradin 1989): rho_infinity = 1 fails after some hundred steps.
 TEST(Vibration, IncompressibleStaysStableWithLittleDamping) {
   const auto course = energy_course(Element::mixed, 0.5, 0.9, 2500);
   EXPECT_LT(course.most, 1.05 * course.first);
