@@ -130,6 +130,7 @@ inline Columns read_columns(const std::filesystem::path& path) {
   std::vector<std::string> names;
   Columns result;
   while (std::getline(file, line)) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || line[0] == '#') continue;
     std::istringstream cells(line);
     const bool header = names.empty();
