@@ -1,0 +1,124 @@
+// Small tubes for the tests of the coupling: mesh, physics, and fields that every rank can compute.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tunica/coupling/problem.hpp"
+#include "tunica/mesh/generate.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "unit/assembly/numbers.hpp"
+
+namespace tunica::test {
+
+inline mesh::TubeSizes tube_sizes(double wall_thickness) {
+  return {.radius = 0.01,
+          .length = 0.03,
+          .wall_thickness = wall_thickness,
+          .cells_around = 8,
+          .cells_radial = 1,
+          .cells_along = 4,
+          .cells_through_wall = 2};
+}
+inline mesh::MeshData fluid_tube() { return mesh::tube(tube_sizes(0.0)); }
+inline mesh::MeshData fsi_tube() { return mesh::tube(tube_sizes(0.002)); }
+
+inline fluid::Parameters blood() { return {.density = 1060, .viscosity = fluid::Newtonian{4e-3}}; }
+
+inline wall::Parameters soft_wall(wall::Element element) {
+  wall::Parameters p;
+  p.element = element;
+  p.density = 1100;
+  p.volumetric_energy = wall::VolumetricEnergy::miehe;
+  auto& elastic = std::get<0>(p.material).elastic;
+  elastic.young_modulus = 4e5;
+  elastic.poisson_ratio = element == wall::Element::mixed ? 0.45 : 0.3;
+  return p;
+}
+
+inline bc::Condition pressure(double value) { return bc::Pressure{bc::WaveformInput{value}}; }
+inline bc::Condition fixed_along_axes(bool x, bool y, bool z) {
+  bc::Fixed c;
+  c.directions = {x, y, z, false, false};
+  return c;
+}
+inline bc::Condition fixed_along_normal() {
+  bc::Fixed c;
+  c.directions = {false, false, false, true, false};
+  return c;
+}
+
+/// Tube with a wall that is held at its ends: `inlet` and `outlet` are the conditions of the lumen's openings.
+inline coupling::ProblemInput fsi_input(bc::Condition inlet, bc::Condition outlet) {
+  coupling::ProblemInput in;
+  in.fluid = blood();
+  in.wall = soft_wall(wall::Element::mixed);
+  in.boundary.fluid = in.fluid;
+  in.boundary.interfaces = {{"lumen_wall", "wall_inner"}};
+  in.boundary.conditions = {{"lumen_inlet", std::move(inlet)},
+                            {"lumen_outlet", std::move(outlet)},
+                            {"wall_inlet", bc::Fixed{}},
+                            {"wall_outlet", bc::Fixed{}},
+                            {"wall_outer", bc::Support{.stiffness = 1e7, .damping = 1e3}}};
+  in.newton.relative_tolerance = 1e-6;
+  in.linear.tolerance = 1e-6;
+  return in;
+}
+
+/// Fields as a step would see them. Twins repeat the motion of their hosts.
+struct Fields {
+  std::vector<double> reference, position, velocity_pressure, acceleration, mesh_velocity, displacement;
+
+  coupling::FieldsView view() const {
+    return {reference.data(),    position.data(),      velocity_pressure.data(),
+            acceleration.data(), mesh_velocity.data(), displacement.data()};
+  }
+};
+
+/// Sizes of the random parts of the fields.
+struct FieldSizes {
+  double displacement = 5e-5, velocity = 0.1, pressure = 1e3, acceleration = 50;
+};
+
+inline Fields random_fields(const mesh::DistributedMesh& mesh, const FieldSizes& sizes = {}) {
+  Fields f;
+  const std::size_t n = at(mesh.nodes());
+  for (auto* field :
+       {&f.reference, &f.position, &f.velocity_pressure, &f.acceleration, &f.mesh_velocity, &f.displacement})
+    field->assign(n, 0.0);
+  for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
+    const auto motion = mesh.original_ids[mesh.host[i]];
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t k = at(i) + c;
+      f.reference[k] = mesh.points[i][c];
+      f.displacement[k] = sizes.displacement * noise(motion, c);
+      f.position[k] = f.reference[k] + f.displacement[k];
+      f.velocity_pressure[k] = sizes.velocity * noise(motion, 3 + c);
+      f.acceleration[k] = sizes.acceleration * noise(motion, 6 + c);
+      f.mesh_velocity[k] = sizes.velocity * noise(motion, 9 + c);
+    }
+    f.velocity_pressure[at(i) + 3] = sizes.pressure * noise(mesh.original_ids[i], 12);
+  }
+  return f;
+}
+
+/// Largest difference between owned nodes of `mesh` and the same nodes of a mesh on one rank, over the largest value
+/// there; `begin`, `end`: components that are compared. Collective over mesh.comm.
+inline double difference(const mesh::DistributedMesh& mesh, const std::vector<double>& values,
+                         const mesh::DistributedMesh& whole, const std::vector<double>& whole_values, int begin,
+                         int end) {
+  std::vector<std::int32_t> local(static_cast<std::size_t>(whole.global_nodes));
+  for (std::int32_t i = 0; i < whole.nodes(); ++i) local[static_cast<std::size_t>(whole.original_ids[i])] = i;
+  double error = 0, size = 0;
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
+    const auto j = local[static_cast<std::size_t>(mesh.original_ids[i])];
+    for (int c = begin; c < end; ++c) error = std::max(error, std::abs(values[at(i) + c] - whole_values[at(j) + c]));
+  }
+  for (std::int32_t j = 0; j < whole.nodes(); ++j)
+    for (int c = begin; c < end; ++c) size = std::max(size, std::abs(whole_values[at(j) + c]));
+  return parallel::global_max(mesh.comm, error) / size;
+}
+
+}  // namespace tunica::test
