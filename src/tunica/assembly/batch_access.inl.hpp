@@ -91,7 +91,8 @@ TUNICA_INLINE void to_lanes(const Pack<W>& p0, const Pack<W>& p1, const Pack<W>&
 
 /// r[node][4] += element residuals of the used lanes.
 template <int W>
-TUNICA_INLINE void scatter_residual(const fe::ElementVector<Pack<W>>& e, const std::int32_t* nodes, int used, double* r) {
+TUNICA_INLINE void scatter_residual(const fe::ElementVector<Pack<W>>& e, const std::int32_t* nodes, int used,
+                                    double* r) {
   for (int a = 0; a < 4; ++a) {
     BatchDouble4 value[W];
     to_lanes<W>(e.r[a][0], e.r[a][1], e.r[a][2], e.r[a][3], value);

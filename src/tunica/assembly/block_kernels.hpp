@@ -12,7 +12,7 @@ namespace tunica::assembly {
 /// padded to four. Only columns of owned nodes take part.
 struct IluFactors {
   std::int32_t rows = 0;
-  const std::int32_t* row_begin = nullptr;  ///< first lower block of each row, rows + 1
+  const std::int32_t* row_begin = nullptr;    ///< first lower block of each row, rows + 1
   const std::int32_t* upper_begin = nullptr;  ///< first block right of the diagonal
   const std::int32_t* columns = nullptr;      ///< without the diagonal
   float* blocks = nullptr;

@@ -56,7 +56,8 @@ void multiply3(std::int32_t rows, const std::int32_t* row_begin, const std::int3
 // c -= a b for 3 x 3 blocks in padded columns.
 TUNICA_INLINE void subtract_product(float* c, const float* a, const float* b) {
   const Float4 a0 = load4(a), a1 = load4(a + 4), a2 = load4(a + 8);
-  for (int j = 0; j < 3; ++j) store4(c + 4 * j, load4(c + 4 * j) - (a0 * b[4 * j] + a1 * b[4 * j + 1] + a2 * b[4 * j + 2]));
+  for (int j = 0; j < 3; ++j)
+    store4(c + 4 * j, load4(c + 4 * j) - (a0 * b[4 * j] + a1 * b[4 * j + 1] + a2 * b[4 * j + 2]));
 }
 
 TUNICA_INLINE Float4 product(const float* a, const float* x) {
@@ -95,7 +96,8 @@ void ilu_solve(const IluFactors& f, float* x) {
       s -= product(f.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(f.columns[b]));
     float t[4];
     store4(t, s);
-    store4(x + 4 * static_cast<std::ptrdiff_t>(row), product(f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(row), t));
+    store4(x + 4 * static_cast<std::ptrdiff_t>(row),
+           product(f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(row), t));
   }
 }
 

@@ -45,7 +45,6 @@ void for_each_pair(const mesh::DistributedMesh& mesh, const Selection& selection
   }
 }
 
-
 BlockPattern build(const mesh::DistributedMesh& mesh, const Selection& selection) {
   BlockPattern pattern;
   pattern.rows = mesh.owned_nodes;

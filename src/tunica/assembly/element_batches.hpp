@@ -20,9 +20,9 @@ struct ElementBatches {
   int width = 1;
   bool split = false;
   std::int32_t elements = 0;
-  std::vector<std::int32_t> nodes;     ///< [batch][4][width]
-  std::vector<std::int32_t> hosts;     ///< [batch][4][width], split only
-  std::vector<std::int32_t> slots;     ///< [batch][1 or 4][16][width]
+  std::vector<std::int32_t> nodes;               ///< [batch][4][width]
+  std::vector<std::int32_t> hosts;               ///< [batch][4][width], split only
+  std::vector<std::int32_t> slots;               ///< [batch][1 or 4][16][width]
   std::vector<std::int32_t> elements_of_region;  ///< [element]: its position in Region::elements
 
   std::int32_t batches() const { return (elements + width - 1) / width; }

@@ -23,9 +23,10 @@ Isa choose_isa() {
   if (wish == nullptr) return best;
   for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
     if (std::string(wish) == name(isa) && isa <= best) return isa;
-  throw InputError("environment variable TUNICA_ISA",
-                   std::string("'") + wish + "' is not an instruction set of this processor, which has up to " + name(best),
-                   "unset it, or choose one of sse2, avx2, avx512 up to that");
+  throw InputError(
+      "environment variable TUNICA_ISA",
+      std::string("'") + wish + "' is not an instruction set of this processor, which has up to " + name(best),
+      "unset it, or choose one of sse2, avx2, avx512 up to that");
 }
 
 const char* name(Isa isa) { return isa == Isa::sse2 ? "sse2" : isa == Isa::avx2 ? "avx2" : "avx512"; }

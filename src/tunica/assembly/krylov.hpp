@@ -1,9 +1,10 @@
 // Krylov solvers of PETSc on operators that are functions rather than matrices.
 #pragma once
 
+#include <mpi.h>
+
 #include <functional>
 #include <memory>
-#include <mpi.h>
 #include <span>
 
 namespace tunica::assembly {
@@ -13,7 +14,7 @@ struct KrylovSettings {
   Method method = Method::gmres;
   double tolerance = 1e-4;  ///< of the residual norm, relative to the right-hand side
   int max_iterations = 500;
-  int restart = 200;        ///< GMRES only
+  int restart = 200;  ///< GMRES only
 };
 
 struct LinearResult {

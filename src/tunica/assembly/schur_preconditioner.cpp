@@ -31,7 +31,11 @@ SchurPreconditioner::SchurPreconditioner(const mesh::DistributedMesh& mesh, cons
   ilu_blocks_.resize(12 * ilu_columns_.size());
   ilu_inverse_diagonal_.resize(12 * static_cast<std::size_t>(n));
   scratch_.assign(n, -1);
-  factors_ = {n, ilu_row_begin_.data(), ilu_upper_begin_.data(), ilu_columns_.data(), ilu_blocks_.data(),
+  factors_ = {n,
+              ilu_row_begin_.data(),
+              ilu_upper_begin_.data(),
+              ilu_columns_.data(),
+              ilu_blocks_.data(),
               ilu_inverse_diagonal_.data()};
 
   divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
@@ -144,9 +148,11 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
     if (mesh_.host[i] != i) mobility[i] = mobility[mesh_.host[i]];
 
   std::fill(schur_values_.begin(), schur_values_.end(), 0.0);
-  for (std::int32_t b = 0; b < pressure_pattern_.blocks(); ++b) schur_values_[b] = matrix.blocks[pressure_source_[b]].a[15];
+  for (std::int32_t b = 0; b < pressure_pattern_.blocks(); ++b)
+    schur_values_[b] = matrix.blocks[pressure_source_[b]].a[15];
   for (const auto& e : laplacians_) {
-    const double weight = 0.25 * (mobility[e.nodes[0]] + mobility[e.nodes[1]] + mobility[e.nodes[2]] + mobility[e.nodes[3]]);
+    const double weight =
+        0.25 * (mobility[e.nodes[0]] + mobility[e.nodes[1]] + mobility[e.nodes[2]] + mobility[e.nodes[3]]);
     for (int a = 0, k = 0; a < 4; ++a)
       for (int b = a + 1; b < 4; ++b, ++k) {
         const double value = weight * e.entries[k];
@@ -189,14 +195,13 @@ void SchurPreconditioner::update(const BlockMatrix& matrix) {
   if (multigrid_.get() == nullptr) {
     // HMIS coarsening with extended+i interpolation and one symmetric sweep keeps the operator complexity of the
     // 3D Schur complement below 1.5 (De Sterck, Yang & Heys 2006).
-    for (const auto& [key, value] :
-         {std::pair{"-tunica_schur_pc_hypre_boomeramg_coarsen_type", "HMIS"},
-          {"-tunica_schur_pc_hypre_boomeramg_interp_type", "ext+i"},
-          {"-tunica_schur_pc_hypre_boomeramg_strong_threshold", "0.5"},
-          {"-tunica_schur_pc_hypre_boomeramg_P_max", "4"},
-          {"-tunica_schur_pc_hypre_boomeramg_agg_nl", "1"},
-          {"-tunica_schur_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
-                                   {"-tunica_schur_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
+    for (const auto& [key, value] : {std::pair{"-tunica_schur_pc_hypre_boomeramg_coarsen_type", "HMIS"},
+                                     {"-tunica_schur_pc_hypre_boomeramg_interp_type", "ext+i"},
+                                     {"-tunica_schur_pc_hypre_boomeramg_strong_threshold", "0.5"},
+                                     {"-tunica_schur_pc_hypre_boomeramg_P_max", "4"},
+                                     {"-tunica_schur_pc_hypre_boomeramg_agg_nl", "1"},
+                                     {"-tunica_schur_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
+                                     {"-tunica_schur_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
       check(PetscOptionsSetValue(nullptr, key, value));
     check(PCCreate(mesh_.comm, multigrid_.out()));
     check(PCSetOptionsPrefix(multigrid_.get(), "tunica_schur_"));

@@ -1,5 +1,5 @@
-// Preconditioner for the (v, p) system, of the SIMPLE type: incomplete factors of the velocity block, algebraic multigrid
-// on the pressure Schur complement.
+// Preconditioner for the (v, p) system, of the SIMPLE type: incomplete factors of the velocity block, algebraic
+// multigrid on the pressure Schur complement.
 //
 //   [K G] ~ [K^ 0] [I  H G]        K^: block ILU(0) of K on each rank,       H: inverse of a diagonal of K,
 //   [D L]   [D  S] [0  I  ]        S ~ L - D H G, one BoomerAMG V-cycle.
@@ -55,16 +55,16 @@ class SchurPreconditioner {
   // S: pressures couple over one ring of elements.
   struct Laplacian {
     std::array<std::int32_t, 4> nodes;
-    std::array<float, 6> entries;         ///< V grad N_a . grad N_b for ab = 01 02 03 12 13 23 [m]
-    std::array<std::int32_t, 16> slots;   ///< in pressure_pattern_; its number of blocks for ghost rows
+    std::array<float, 6> entries;        ///< V grad N_a . grad N_b for ab = 01 02 03 12 13 23 [m]
+    std::array<std::int32_t, 16> slots;  ///< in pressure_pattern_; its number of blocks for ghost rows
   };
   BlockPattern pressure_pattern_;
   std::vector<std::int32_t> pressure_source_;  ///< [entry of pressure_pattern_]: block of the matrix
   std::vector<Laplacian> laplacians_;
-  std::vector<char> follows_;                  ///< [local node]: belongs to the wall (twins included, hosts not)
-  std::vector<double> nodal_volume_;           ///< [local node][1], m^3
+  std::vector<char> follows_;         ///< [local node]: belongs to the wall (twins included, hosts not)
+  std::vector<double> nodal_volume_;  ///< [local node][1], m^3
   std::vector<double> schur_values_;
-  std::vector<double> inverse_diagonal_;       ///< [owned node], 1 / (diagonal of K with the row sum of the mass)
+  std::vector<double> inverse_diagonal_;  ///< [owned node], 1 / (diagonal of K with the row sum of the mass)
   parallel::MatHandle schur_;
   parallel::PcHandle multigrid_;
   parallel::VecHandle rhs_, solution_;

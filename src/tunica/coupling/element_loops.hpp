@@ -36,7 +36,11 @@ struct BatchView {
   const std::int32_t *nodes, *hosts, *slots;
 
   explicit BatchView(const assembly::ElementBatches& b)
-      : batches(b.batches()), elements(b.elements), split(b.split), nodes(b.nodes.data()), hosts(b.hosts.data()),
+      : batches(b.batches()),
+        elements(b.elements),
+        split(b.split),
+        nodes(b.nodes.data()),
+        hosts(b.hosts.data()),
         slots(b.slots.data()) {}
 };
 

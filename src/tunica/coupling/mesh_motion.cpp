@@ -64,9 +64,8 @@ MeshMotion::MeshMotion(const mesh::DistributedMesh& mesh, assembly::Isa isa, con
   eliminate();
   krylov_ = std::make_unique<assembly::Krylov>(
       mesh.comm, 4 * mesh.owned_nodes,
-      assembly::KrylovSettings{.method = assembly::KrylovSettings::Method::conjugate_gradients,
-                               .tolerance = 1e-12,
-                               .max_iterations = 500},
+      assembly::KrylovSettings{
+          .method = assembly::KrylovSettings::Method::conjugate_gradients, .tolerance = 1e-12, .max_iterations = 500},
       [this](const double* x, double* y) { apply(x, y); }, [this](const double* r, double* z) { precondition(r, z); });
 }
 
@@ -220,8 +219,10 @@ int MeshMotion::solve(std::span<double> displacement, double tolerance) {
   }
   const auto result = krylov_->solve(residual_, std::span(increment_).first(residual_.size()), tolerance * scale);
   if (!result.converged)
-    throw SolverError(fmt::format("Mesh motion: conjugate gradients stopped after {} iterations at a relative residual "
-                                  "of {:.2e}.", result.iterations, result.residual));
+    throw SolverError(
+        fmt::format("Mesh motion: conjugate gradients stopped after {} iterations at a relative residual "
+                    "of {:.2e}.",
+                    result.iterations, result.residual));
   for (std::size_t i = 0; i < residual_.size(); ++i) displacement[i] += increment_[i];
   mesh_.halo.update(displacement, 4);
   return result.iterations;

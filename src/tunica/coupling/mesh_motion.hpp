@@ -16,7 +16,8 @@ namespace tunica::coupling {
 /// The extension refers to the initial mesh, so matrix and multigrid hierarchy are made once.
 ///
 /// Conjugate gradients on the elastic matrix, preconditioned by one BoomerAMG cycle per direction on the matrix of its
-/// scalar counterpart: by Korn's inequality the two are equivalent with a constant that depends on Poisson's ratio only.
+/// scalar counterpart: by Korn's inequality the two are equivalent with a constant that depends on Poisson's ratio
+/// only.
 class MeshMotion {
  public:
   /// `constraints`: lumen nodes that do not move freely; interface nodes have P = 0. Collective.
@@ -52,8 +53,8 @@ class MeshMotion {
   std::unique_ptr<assembly::Krylov> krylov_;
 };
 
-/// Smallest quality (ale::relative_quality) of the lumen elements when their nodes stand at `position` ([local node][4]),
-/// and where it is. Collective.
+/// Smallest quality (ale::relative_quality) of the lumen elements when their nodes stand at `position` ([local
+/// node][4]), and where it is. Collective.
 struct MeshQuality {
   double smallest = 1.0;
   std::int64_t element = -1;  ///< position in MeshData::tetrahedra

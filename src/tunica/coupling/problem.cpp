@@ -100,7 +100,8 @@ std::vector<double> Problem::negligible_forces() const {
   for (const auto& face : mesh_.faces) {
     if (mesh_.regions[face.region].kind != mesh::RegionKind::wall) continue;
     for (const auto& t : face.triangles) {
-      const Vec3<double> twice = cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+      const Vec3<double> twice =
+          cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
       for (const auto node : t)
         for (int c = 0; c < 3; ++c) forces[at(mesh_.host[node]) + c] += 1e-12 * mu / 6.0 * twice[c];
     }

@@ -9,9 +9,9 @@ struct NewtonSettings {
   double relative_tolerance = 1e-4;  ///< of the residual norm, relative to that at the start of the step
   double reference_fraction = 1e-3;  ///< a start below this share of the largest start so far counts as that share
   int max_iterations = 12;
-  int line_search = 4;               ///< most halvings of an increment
-  double growth = 1.2;               ///< growth of the residual norm that an increment may cause
-  double mesh_tolerance = 1e-5;      ///< of the mesh motion, relative to the forces of the interface displacement
+  int line_search = 4;           ///< most halvings of an increment
+  double growth = 1.2;           ///< growth of the residual norm that an increment may cause
+  double mesh_tolerance = 1e-5;  ///< of the mesh motion, relative to the forces of the interface displacement
 
   static config::Schema<NewtonSettings> schema() {
     using namespace config;
@@ -29,7 +29,8 @@ struct NewtonSettings {
         .integer("line_search", &NewtonSettings::line_search, range(0, 20),
                  "Most halvings of an increment that makes the residual grow")
         .by_default()
-        .number("growth", &NewtonSettings::growth, range(0.5, 1e6), "Growth of the residual norm that an increment may cause")
+        .number("growth", &NewtonSettings::growth, range(0.5, 1e6),
+                "Growth of the residual norm that an increment may cause")
         .by_default()
         .number("mesh_tolerance", &NewtonSettings::mesh_tolerance, range(1e-14, 0.1),
                 "Residual of the mesh motion, relative to the forces of the interface displacement")
@@ -38,7 +39,7 @@ struct NewtonSettings {
 };
 
 struct LinearSettings {
-  double tolerance = 1e-4;   ///< of the residual norm, relative to the right-hand side
+  double tolerance = 1e-4;  ///< of the residual norm, relative to the right-hand side
   int max_iterations = 500;
   int restart = 200;
 
@@ -57,7 +58,7 @@ struct LinearSettings {
 };
 
 struct TimeSettings {
-  double step = 0.0;          ///< s
+  double step = 0.0;  ///< s
   std::int64_t steps = 0;
   double rho_infinity = 0.5;  ///< spectral radius of generalised-alpha at infinite frequency
   int max_halvings = 6;       ///< of a rejected step

@@ -13,8 +13,8 @@ namespace tunica::coupling {
 /// their hosts. In the lumen, displacement is that of the mesh.
 struct State {
   std::int64_t step = 0;
-  double time = 0.0;  ///< s
-  double dt = 0.0;    ///< size of the step that led here; 0 at the start [s]
+  double time = 0.0;                      ///< s
+  double dt = 0.0;                        ///< size of the step that led here; 0 at the start [s]
   std::vector<double> velocity_pressure;  ///< v at t_n [m/s]; p, collocated at t_{n-1+alpha_f} [Pa]
   std::vector<double> acceleration;       ///< dv/dt at t_n, at fixed mesh node [m/s^2]
   std::vector<double> displacement;       ///< u at t_n [m]

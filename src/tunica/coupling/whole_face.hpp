@@ -8,8 +8,8 @@
 
 namespace tunica::coupling {
 
-/// Each rank gets the whole face. Written reason: a flow profile is the solution of a small problem on one opening (some
-/// thousand triangles of a mesh of a million), which every rank solves alike at set-up.
+/// Each rank gets the whole face. Written reason: a flow profile is the solution of a small problem on one opening
+/// (some thousand triangles of a mesh of a million), which every rank solves alike at set-up.
 struct WholeFace {
   std::string name;
   std::vector<Vec3<double>> points;      ///< reference positions [m], ascending global node number
