@@ -104,19 +104,42 @@ void SchurPreconditioner::extract(const BlockMatrix& matrix) {
   }
 }
 
-void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
-  const auto copy = [&](std::int32_t block, float* to) {
+std::int32_t SchurPreconditioner::factorise_shifted(const BlockMatrix& matrix, float shift) {
+  const auto copy = [&](std::int32_t block, float factor, float* to) {
     const float* a = matrix.blocks[block].a;
     for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r) to[4 * c + r] = a[4 * c + r];
+      for (int r = 0; r < 3; ++r) to[4 * c + r] = factor * a[4 * c + r];
       to[4 * c + 3] = 0;
     }
   };
-  for (std::size_t k = 0; k < ilu_source_.size(); ++k) copy(ilu_source_[k], ilu_blocks_.data() + 12 * k);
+  const float off_diagonal = 1.0F / (1.0F + shift);
+  for (std::size_t k = 0; k < ilu_source_.size(); ++k)
+    copy(ilu_source_[k], off_diagonal, ilu_blocks_.data() + 12 * k);
   for (std::int32_t i = 0; i < pattern_.rows; ++i)
-    copy(pattern_.diagonal[i], ilu_inverse_diagonal_.data() + 12 * static_cast<std::size_t>(i));
-  const std::int32_t singular = block_kernels(isa_).ilu_factorise(factors_, scratch_.data());
-  int bad = singular >= 0 ? 1 : 0;
+    copy(pattern_.diagonal[i], 1.0F, ilu_inverse_diagonal_.data() + 12 * static_cast<std::size_t>(i));
+  return block_kernels(isa_).ilu_factorise(factors_, scratch_.data());
+}
+
+bool SchurPreconditioner::factors_are_stable() {
+  for (std::size_t i = 0; i < z_.size(); ++i) z_[i] = static_cast<float>(scale_[i] * scale_[i]);
+  block_kernels(isa_).ilu_solve(factors_, z_.data());
+  for (std::size_t i = 0; i < z_.size(); ++i)
+    if (i % 4 < 3 && !(std::abs(z_[i]) < 1e6F)) return false;
+  return true;
+}
+
+// Incomplete factors of an indefinite-looking block (a locking displacement element, ILU of Laplacians with obtuse
+// angles) can be unstable. Damping the off-diagonal blocks cures that (Manteuffel 1980); the least damping that gives
+// sane factors on this rank is taken.
+void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
+  std::int32_t singular = -1;
+  bool stable = false;
+  for (const float shift : {0.0F, 0.03F, 0.1F, 0.3F, 1.0F, 10.0F}) {
+    singular = factorise_shifted(matrix, shift);
+    stable = singular < 0 && factors_are_stable();
+    if (stable) break;
+  }
+  int bad = stable ? 0 : 1;
   MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, mesh_.comm);
   if (bad == 0) return;
   std::string place = "on another rank";

@@ -37,6 +37,10 @@ class SchurPreconditioner {
  private:
   void extract(const BlockMatrix& matrix);
   void factorise(const BlockMatrix& matrix);
+  /// Factors with off-diagonal blocks divided by 1 + shift; returns a singular row or -1.
+  std::int32_t factorise_shifted(const BlockMatrix& matrix, float shift);
+  /// Do the factors take a vector like the diagonal of K to one of moderate size?
+  bool factors_are_stable();
   void build_schur(const BlockMatrix& matrix);
   void make_laplacians();
 
