@@ -7,7 +7,7 @@
 
 namespace tunica::verification {
 
-/// The generated tube with its radii moved by `grade`, a map of [0, 1] onto itself.
+/// The generated tube with its radii moved by `grade`, a map of [0, 1] that multiplies the radius.
 inline mesh::MeshData graded_tube(const mesh::TubeSizes& sizes, const std::function<double(double)>& grade) {
   auto data = mesh::tube(sizes);
   for (auto& x : data.points) {
