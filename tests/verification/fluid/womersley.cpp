@@ -47,7 +47,7 @@ TEST(Womersley, RigidTube) {
     for (std::size_t k = 0; k < profile["r_over_R"].size(); ++k)
       ASSERT_NEAR(exact({{profile["r_over_R"][k] * radius, 0, 0}}, t)[2], 0.01 * profile[column][k], 1e-8);
 
-  constexpr int around = 48, rings = 15, along = 4;
+  constexpr int around = 64, rings = 20, along = 4;
   const auto grade = [](double r) { return r * (1.6 - 0.6 * r); };  // finer towards the wall
   const auto mesh = mesh::distribute(
       graded_tube(
@@ -70,7 +70,7 @@ TEST(Womersley, RigidTube) {
   for (const auto& [t, column] : instants)
     for (const double u : profile[column]) peak = std::max(peak, std::abs(0.01 * u));
 
-  constexpr double dt = 0.025;
+  constexpr double dt = 0.0125;
   for (const double t : {0.5, 0.625, 0.75, 0.875, 1.0}) {
     ASSERT_NO_FATAL_FAILURE(march(problem, state, dt, static_cast<int>(std::lround((t - state.time) / dt))));
     double worst = 0, square = 0, count = 0;
@@ -85,8 +85,7 @@ TEST(Womersley, RigidTube) {
     const double rms = std::sqrt(parallel::global_sum(mesh.comm, square) / parallel::global_sum(mesh.comm, count));
     say("  t = %.3f s: largest deviation %.2f %% of the peak velocity, rms %.2f %%\n", t, 100 * worst / peak,
         100 * rms / peak);
-    EXPECT_LT(rms / peak, 0.01);
-    EXPECT_LT(worst / peak, 0.02);  // in the Stokes layer
+    EXPECT_LT(worst / peak, 0.01);
   }
 }
 
