@@ -1,13 +1,13 @@
 #include "tunica/assembly/schur_preconditioner.hpp"
 
 #include <fmt/format.h>
-#include <petscpc.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/assembly/multigrid.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/fe/tetrahedron.hpp"
+#include "tunica/parallel/agree.hpp"
 
 namespace tunica::assembly {
 
@@ -60,6 +60,7 @@ SchurPreconditioner::SchurPreconditioner(const mesh::DistributedMesh& mesh, cons
   check(MatSetPreallocationCOO(schur_, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()));
   check(VecCreateMPI(mesh.comm, n, PETSC_DETERMINE, rhs_.out()));
   check(VecDuplicate(rhs_, solution_.out()));
+  multigrid_ = make_multigrid(mesh.comm);
 }
 
 // Reference geometry is enough for a preconditioner.
@@ -139,16 +140,15 @@ void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
     stable = singular < 0 && factors_are_stable();
     if (stable) break;
   }
-  int bad = stable ? 0 : 1;
-  MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, mesh_.comm);
-  if (bad == 0) return;
-  std::string place = "on another rank";
-  if (singular >= 0) {
-    const auto& x = mesh_.points[singular];
-    place = fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]);
-  }
-  throw SolverError("The velocity block of the tangent is singular " + place +
-                    ": the node has neither mass nor stiffness, or the tangent is not finite.");
+  parallel::agree(mesh_.comm, [&] {
+    if (stable) return;
+    const auto& x = mesh_.points[std::max(singular, 0)];
+    throw SolverError(singular < 0 ? std::string("The incomplete factors of the velocity block overflow: the tangent is "
+                                                 "not finite or far from invertible.")
+                                   : fmt::format("The velocity block of the tangent is singular at ({:.6g}, {:.6g}, "
+                                                 "{:.6g}) m: the node has neither mass nor stiffness.",
+                                                 x[0], x[1], x[2]));
+  });
 }
 
 void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
@@ -215,23 +215,6 @@ void SchurPreconditioner::update(const BlockMatrix& matrix) {
   extract(matrix);
   factorise(matrix);
   build_schur(matrix);
-  if (multigrid_.get() == nullptr) {
-    // HMIS coarsening with extended+i interpolation and one symmetric sweep keeps the operator complexity of the
-    // 3D Schur complement below 1.5 (De Sterck, Yang & Heys 2006).
-    for (const auto& [key, value] : {std::pair{"-tunica_schur_pc_hypre_boomeramg_coarsen_type", "HMIS"},
-                                     {"-tunica_schur_pc_hypre_boomeramg_interp_type", "ext+i"},
-                                     {"-tunica_schur_pc_hypre_boomeramg_strong_threshold", "0.5"},
-                                     {"-tunica_schur_pc_hypre_boomeramg_P_max", "4"},
-                                     {"-tunica_schur_pc_hypre_boomeramg_agg_nl", "1"},
-                                     {"-tunica_schur_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
-                                     {"-tunica_schur_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
-      check(PetscOptionsSetValue(nullptr, key, value));
-    check(PCCreate(mesh_.comm, multigrid_.out()));
-    check(PCSetOptionsPrefix(multigrid_.get(), "tunica_schur_"));
-    check(PCSetType(multigrid_.get(), PCHYPRE));
-    check(PCHYPRESetType(multigrid_.get(), "boomeramg"));
-    check(PCSetFromOptions(multigrid_.get()));
-  }
   check(PCSetOperators(multigrid_.get(), schur_.get(), schur_.get()));
   check(PCSetUp(multigrid_.get()));
 }

@@ -1,13 +1,12 @@
 #include "tunica/coupling/mesh_motion.hpp"
 
 #include <fmt/format.h>
-#include <petscpc.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "tunica/ale/mesh_motion.hpp"
 #include "tunica/assembly/block_kernels.hpp"
+#include "tunica/assembly/multigrid.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -102,7 +101,10 @@ void MeshMotion::assemble(const ale::Parameters& parameters) {
       }
     }
   });
+  make_preconditioner(scalar);
+}
 
+void MeshMotion::make_preconditioner(const std::vector<double>& scalar) {
   std::vector<PetscInt> rows, columns;
   std::vector<PetscScalar> values;
   const auto fixed = [&](std::int32_t node) {
@@ -124,19 +126,7 @@ void MeshMotion::assemble(const ale::Parameters& parameters) {
   check(MatSetValuesCOO(scalar_, values.data(), INSERT_VALUES));
   check(VecCreateMPI(mesh_.comm, n, PETSC_DETERMINE, rhs_.out()));
   check(VecDuplicate(rhs_, solution_.out()));
-  for (const auto& [key, value] : {std::pair{"-tunica_mesh_pc_hypre_boomeramg_coarsen_type", "HMIS"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_interp_type", "ext+i"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_strong_threshold", "0.5"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_P_max", "4"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_agg_nl", "1"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
-                                   {"-tunica_mesh_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
-    check(PetscOptionsSetValue(nullptr, key, value));
-  check(PCCreate(mesh_.comm, multigrid_.out()));
-  check(PCSetOptionsPrefix(multigrid_, "tunica_mesh_"));
-  check(PCSetType(multigrid_, PCHYPRE));
-  check(PCHYPRESetType(multigrid_, "boomeramg"));
-  check(PCSetFromOptions(multigrid_));
+  multigrid_ = assembly::make_multigrid(mesh_.comm);
   check(PCSetOperators(multigrid_, scalar_, scalar_));
   check(PCSetUp(multigrid_));
 }

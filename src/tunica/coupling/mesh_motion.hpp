@@ -35,6 +35,8 @@ class MeshMotion {
     Mat3<double> a;
   };
   void assemble(const ale::Parameters& parameters);
+  /// Multigrid on the scalar matrix with the entries `scalar` of pattern_; fixed nodes are Dirichlet nodes.
+  void make_preconditioner(const std::vector<double>& scalar);
   void eliminate();
   void apply(const double* x, double* y);
   void precondition(const double* r, double* z);

@@ -177,7 +177,7 @@ void Problem::prescribe_mesh(State& state) const {
 
 int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& scheme) {
   if (!moving()) return 0;
-  const Stopwatch watch(timings_->mesh);
+  const Stopwatch watch(timings_.mesh);
   int iterations = 0;
   if (mesh_motion_)
     iterations = mesh_motion_->solve(next.displacement, input_.newton.mesh_tolerance);
@@ -220,7 +220,7 @@ void Problem::add_elements(mesh::RegionKind kind, const Instant& instant, std::s
 }
 
 void Problem::assemble(const State& next, const Instant& instant, bool with_tangent) {
-  const Stopwatch watch(timings_->assembly);
+  const Stopwatch watch(timings_.assembly);
   std::fill(residual_.begin(), residual_.end(), 0.0);
   if (with_tangent) matrix_.set_zero();
   float* blocks = with_tangent ? matrix_.blocks.data()->a : nullptr;
@@ -278,72 +278,89 @@ void Problem::update(const State& old_state, State& next, const Instant& instant
   evaluate_fields(old_state, next, instant);
 }
 
-StepReport Problem::newton(const State& old_state, State& next, const Instant& instant) {
-  StepReport report;
-  timings_ = &report.timings;
-  const Stopwatch watch(report.timings.total);
+Problem::Targets Problem::start(State& next, const Instant& instant, double& norm) {
+  assemble(next, instant, true);
+  {
+    const Stopwatch watch(timings_.set_up);
+    solver_.update_preconditioner(matrix_, outlets_);
+  }
+  norm = solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes)));
+  next.residual_reference = std::max(next.residual_reference, norm);
   const NewtonSettings& settings = input_.newton;
-  const std::size_t owned = at(mesh_.owned_nodes);
-  std::vector<double> negative(owned), start;
+  const double noise = negligible_.empty() ? 0.0 : solver_.norm(negligible_);
+  const double relative =
+      settings.relative_tolerance * std::max(norm, settings.reference_fraction * next.residual_reference);
+  return {std::max(relative, noise), noise};
+}
 
-  double norm = 0, target = 0, noise = 0;
+bool Problem::solve_increment(NewtonRecord& record, std::string& failure) {
+  const Stopwatch watch(timings_.linear);
+  std::vector<double> negative(at(mesh_.owned_nodes));
+  for (std::size_t i = 0; i < negative.size(); ++i) negative[i] = -residual_[i];
+  const auto result = solver_.solve(matrix_, outlets_, negative, increment_);
+  record.linear_iterations = result.iterations;
+  if (!result.converged)
+    failure = fmt::format("the linear solver stopped after {} iterations at a relative residual of {:.2e}",
+                          result.iterations, result.residual);
+  return result.converged;
+}
+
+std::optional<double> Problem::line_search(const State& old_state, State& next, const Instant& instant, double norm,
+                                           double target, NewtonRecord& record, std::string& failure) {
+  std::vector<double> from = instant.scheme ? next.velocity_pressure : next.displacement;
+  for (std::size_t i = 3; i < from.size(); i += 4) from[i] = next.velocity_pressure[i];
+  double step_length = 1.0;
+  for (int halving = 0; halving <= input_.newton.line_search; ++halving, step_length *= 0.5) {
+    update(old_state, next, instant, from, step_length, record);
+    failure = mesh_failure();
+    if (!failure.empty()) continue;
+    assemble(next, instant, false);
+    const double new_norm = solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes)));
+    if (std::isfinite(new_norm) && (new_norm <= input_.newton.growth * norm || new_norm <= target)) return new_norm;
+    failure = fmt::format("the residual grows from {:.3e} to {:.3e} along the Newton direction", norm, new_norm);
+  }
+  return std::nullopt;
+}
+
+void Problem::iterate(const State& old_state, State& next, const Instant& instant, StepReport& report) {
+  double norm = 0;
+  const Targets target = start(next, instant, norm);
   for (int k = 0;; ++k) {
-    if (k == 0) {
-      assemble(next, instant, true);
-      const Stopwatch set_up(report.timings.set_up);
-      solver_.update_preconditioner(matrix_, outlets_);
-      norm = solver_.norm(std::span(residual_).first(owned));
-      next.residual_reference = std::max(next.residual_reference, norm);
-      target = settings.relative_tolerance * std::max(norm, settings.reference_fraction * next.residual_reference);
-      if (!negligible_.empty()) noise = solver_.norm(negligible_);
-      target = std::max(target, noise);
-    }
     report.final_norm = norm;
     if (!std::isfinite(norm)) {
       report.failure = "the residual is not a finite number";
-      return report;
+      return;
     }
-    if (norm <= target && (k > 0 || norm <= noise)) {
+    if (norm <= target.converged && (k > 0 || norm <= target.noise)) {
       report.converged = true;
-      return report;
+      return;
     }
-    if (k == settings.max_iterations) {
+    if (k == input_.newton.max_iterations) {
       report.failure = fmt::format("Newton's method did not converge in {} iterations: residual {:.3e}, asked {:.3e}",
-                                   k, norm, target);
-      return report;
+                                   k, norm, target.converged);
+      return;
     }
     if (k > 0) assemble(next, instant, true);
     NewtonRecord& record = report.iterations.emplace_back();
     record.norm = norm;
-    for (std::size_t i = 0; i < owned; ++i) negative[i] = -residual_[i];
-    {
-      const Stopwatch linear(report.timings.linear);
-      const auto result = solver_.solve(matrix_, outlets_, negative, increment_);
-      record.linear_iterations = result.iterations;
-      if (!result.converged) {
-        report.failure = fmt::format("the linear solver stopped after {} iterations at a relative residual of {:.2e}",
-                                     result.iterations, result.residual);
-        return report;
-      }
-    }
-    start = instant.scheme ? next.velocity_pressure : next.displacement;
-    for (std::size_t i = 3; i < start.size(); i += 4) start[i] = next.velocity_pressure[i];
-    double new_norm = 0, step_length = 1.0;
-    for (int halving = 0;; ++halving, step_length *= 0.5) {
-      update(old_state, next, instant, start, step_length, record);
-      report.failure = mesh_failure();
-      if (report.failure.empty()) {
-        assemble(next, instant, false);
-        new_norm = solver_.norm(std::span(residual_).first(owned));
-        if (std::isfinite(new_norm) && (new_norm <= settings.growth * norm || new_norm <= target)) break;
-        report.failure =
-            fmt::format("the residual grows from {:.3e} to {:.3e} along the Newton direction", norm, new_norm);
-      }
-      if (halving == settings.line_search) return report;
-    }
-    report.failure.clear();
-    norm = new_norm;
+    if (!solve_increment(record, report.failure)) return;
+    const auto new_norm = line_search(old_state, next, instant, norm, target.converged, record, report.failure);
+    if (!new_norm) return;
+    norm = *new_norm;
   }
+}
+
+StepReport Problem::newton(const State& old_state, State& next, const Instant& instant) {
+  StepReport report;
+  timings_ = {};
+  try {
+    const Stopwatch watch(timings_.total);
+    iterate(old_state, next, instant, report);
+  } catch (const SolverError& error) {  // thrown on all ranks alike
+    report.failure = error.what();
+  }
+  report.timings = timings_;
+  return report;
 }
 
 StepReport Problem::advance(State& state, double dt) {
@@ -376,6 +393,7 @@ StepReport Problem::advance(State& state, double dt) {
 }
 
 StepReport Problem::solve_static(State& state, double factor) {
+  if (input_.fluid) throw InputError("analysis", "statics has no flow", "solve the wall alone, or use a time step");
   const Instant instant{std::nullopt, state.time, factor};
   State next = state;
   evaluate_fields(state, next, instant);

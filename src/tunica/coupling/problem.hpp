@@ -114,6 +114,16 @@ class Problem {
   void add_elements(mesh::RegionKind kind, const Instant& instant, std::span<double> residual, float* blocks) const;
   void assemble(const State& next, const Instant& instant, bool with_tangent);
   StepReport newton(const State& old_state, State& next, const Instant& instant);
+  void iterate(const State& old_state, State& next, const Instant& instant, StepReport& report);
+  /// First residual, tangent and preconditioner of a step; returns the norm that ends it and the norm of round-off.
+  struct Targets {
+    double converged, noise;
+  };
+  Targets start(State& next, const Instant& instant, double& norm);
+  bool solve_increment(NewtonRecord& record, std::string& failure);
+  /// Goes along the increment as far as the residual allows; returns its norm there, none when every length fails.
+  std::optional<double> line_search(const State& old_state, State& next, const Instant& instant, double norm,
+                                    double target, NewtonRecord& record, std::string& failure);
   void update(const State& old_state, State& next, const Instant& instant, std::span<const double> start,
               double step_length, NewtonRecord& record);
   std::string mesh_failure() const;
@@ -137,7 +147,7 @@ class Problem {
   std::vector<assembly::RankOne> outlets_;
   std::vector<double> outlet_flows_;
   Instant last_instant_;
-  StepTimings* timings_ = nullptr;
+  StepTimings timings_;  ///< of the step under way
 };
 
 }  // namespace tunica::coupling

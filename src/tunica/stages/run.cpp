@@ -254,16 +254,9 @@ std::string Run::step_line(const StepReport& report, double dt) const {
                      report.final_norm, time_text(dt), report.timings.total);
 }
 
-// A mesh motion that does not converge is one more way in which a step can be too large.
 StepReport Run::attempt() {
-  try {
-    const double size = grid_.next_step();
-    return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
-  } catch (const SolverError& error) {
-    StepReport report;
-    report.failure = error.what();
-    return report;
-  }
+  const double size = grid_.next_step();
+  return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
 }
 
 void Run::accepted(const StepReport& report, double dt) {
