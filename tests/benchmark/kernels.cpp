@@ -91,9 +91,9 @@ Setting& setting() {
 }
 
 void per_element(benchmark::State& state, std::int32_t elements) {
-  state.counters["us_per_element"] = benchmark::Counter(static_cast<double>(elements) * 1e-6 *
-                                                            static_cast<double>(state.iterations()),
-                                                        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["us_per_element"] =
+      benchmark::Counter(static_cast<double>(elements) * 1e-6 * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 void bytes(benchmark::State& state, double bytes_per_iteration) {
   state.counters["GB/s"] = benchmark::Counter(bytes_per_iteration * 1e-9 * static_cast<double>(state.iterations()),
@@ -144,8 +144,9 @@ void matrix_vector_product(benchmark::State& state) {
   std::vector<double> y(4 * static_cast<std::size_t>(s.pattern.rows));
   for (auto _ : state) s.matrix.multiply(s.isa, s.velocity_pressure, y);
   bytes(state, 68.0 * s.pattern.blocks() + 68.0 * s.pattern.rows);
-  state.counters["ns_per_block"] = benchmark::Counter(1e-9 * s.pattern.blocks() * static_cast<double>(state.iterations()),
-                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_block"] =
+      benchmark::Counter(1e-9 * s.pattern.blocks() * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 void preconditioner_set_up(benchmark::State& state) {
   Setting& s = setting();

@@ -47,8 +47,13 @@ mesh::MeshData read_pipe() {
 // Physics of the pipe_fsi case (docs/verification.md) on every mesh.
 Setting make_setting(const std::string& name, bool root) {
   Setting s;
-  mesh::TubeSizes tube{.radius = 0.01, .length = 0.1, .wall_thickness = 0.002, .cells_around = 56, .cells_radial = 7,
-                       .cells_along = 60, .cells_through_wall = 3};
+  mesh::TubeSizes tube{.radius = 0.01,
+                       .length = 0.1,
+                       .wall_thickness = 0.002,
+                       .cells_around = 56,
+                       .cells_radial = 7,
+                       .cells_along = 60,
+                       .cells_through_wall = 3};
   if (name == "tube_300k") {
     const double refine = 1.8;
     tube.cells_around = 104, tube.cells_radial = 13, tube.cells_along = 106, tube.cells_through_wall = 5;
@@ -115,12 +120,13 @@ void run(const std::string& name, int steps, double tolerance) {
   const double memory = parallel::global_sum(comm, 1024.0 * static_cast<double>(usage.ru_maxrss));
   if (!root) return;
   const auto elements = static_cast<double>(mesh.global_elements);
-  std::printf("per step %.2f s; per tetrahedron and Newton iteration %.2f us; linear iterations per solve %.1f\n"
-              "share: assembly %.0f %%, preconditioner set-up %.0f %%, linear solve %.0f %%, mesh motion %.0f %%\n"
-              "peak memory %.2f GB, %.2f kB per tetrahedron\n",
-              total / steps, 1e6 * total / newton / elements, static_cast<double>(linear) / newton,
-              100 * sum.assembly / total, 100 * sum.set_up / total, 100 * sum.linear / total, 100 * sum.mesh / total,
-              1e-9 * memory, 1e-3 * memory / elements);
+  std::printf(
+      "per step %.2f s; per tetrahedron and Newton iteration %.2f us; linear iterations per solve %.1f\n"
+      "share: assembly %.0f %%, preconditioner set-up %.0f %%, linear solve %.0f %%, mesh motion %.0f %%\n"
+      "peak memory %.2f GB, %.2f kB per tetrahedron\n",
+      total / steps, 1e6 * total / newton / elements, static_cast<double>(linear) / newton, 100 * sum.assembly / total,
+      100 * sum.set_up / total, 100 * sum.linear / total, 100 * sum.mesh / total, 1e-9 * memory,
+      1e-3 * memory / elements);
 }
 
 }  // namespace

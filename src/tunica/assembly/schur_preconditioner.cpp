@@ -1,6 +1,7 @@
 #include "tunica/assembly/schur_preconditioner.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -114,8 +115,7 @@ std::int32_t SchurPreconditioner::factorise_shifted(const BlockMatrix& matrix, f
     }
   };
   const float off_diagonal = 1.0F / (1.0F + shift);
-  for (std::size_t k = 0; k < ilu_source_.size(); ++k)
-    copy(ilu_source_[k], off_diagonal, ilu_blocks_.data() + 12 * k);
+  for (std::size_t k = 0; k < ilu_source_.size(); ++k) copy(ilu_source_[k], off_diagonal, ilu_blocks_.data() + 12 * k);
   for (std::int32_t i = 0; i < pattern_.rows; ++i)
     copy(pattern_.diagonal[i], 1.0F, ilu_inverse_diagonal_.data() + 12 * static_cast<std::size_t>(i));
   return block_kernels(isa_).ilu_factorise(factors_, scratch_.data());
@@ -143,11 +143,12 @@ void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
   parallel::agree(mesh_.comm, [&] {
     if (stable) return;
     const auto& x = mesh_.points[std::max(singular, 0)];
-    throw SolverError(singular < 0 ? std::string("The incomplete factors of the velocity block overflow: the tangent is "
-                                                 "not finite or far from invertible.")
-                                   : fmt::format("The velocity block of the tangent is singular at ({:.6g}, {:.6g}, "
-                                                 "{:.6g}) m: the node has neither mass nor stiffness.",
-                                                 x[0], x[1], x[2]));
+    throw SolverError(singular < 0
+                          ? std::string("The incomplete factors of the velocity block overflow: the tangent is "
+                                        "not finite or far from invertible.")
+                          : fmt::format("The velocity block of the tangent is singular at ({:.6g}, {:.6g}, "
+                                        "{:.6g}) m: the node has neither mass nor stiffness.",
+                                        x[0], x[1], x[2]));
   });
 }
 

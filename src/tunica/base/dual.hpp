@@ -58,25 +58,35 @@ struct Dual {
 };
 
 template <class T, int N>
-Dual<T, N> select(bool mask, const Dual<T, N>& a, const Dual<T, N>& b) { return mask ? a : b; }
+Dual<T, N> select(bool mask, const Dual<T, N>& a, const Dual<T, N>& b) {
+  return mask ? a : b;
+}
 template <class T, int N>
-Dual<T, N> max(const Dual<T, N>& a, const Dual<T, N>& b) { return a > b ? a : b; }
+Dual<T, N> max(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return a > b ? a : b;
+}
 template <class T, int N>
-Dual<T, N> min(const Dual<T, N>& a, const Dual<T, N>& b) { return a < b ? a : b; }
+Dual<T, N> min(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return a < b ? a : b;
+}
 template <class T, int N>
 Dual<T, N> sqrt(const Dual<T, N>& x) {
   const T s = sqrt(x.value);
   return Dual<T, N>::chain(x, s, T(0.5) / s);
 }
 template <class T, int N>
-Dual<T, N> abs(const Dual<T, N>& x) { return x < Dual<T, N>(0.0) ? -x : x; }
+Dual<T, N> abs(const Dual<T, N>& x) {
+  return x < Dual<T, N>(0.0) ? -x : x;
+}
 template <class T, int N>
 Dual<T, N> exp(const Dual<T, N>& x) {
   const T e = exp(x.value);
   return Dual<T, N>::chain(x, e, e);
 }
 template <class T, int N>
-Dual<T, N> log(const Dual<T, N>& x) { return Dual<T, N>::chain(x, log(x.value), T(1.0) / x.value); }
+Dual<T, N> log(const Dual<T, N>& x) {
+  return Dual<T, N>::chain(x, log(x.value), T(1.0) / x.value);
+}
 template <class T, int N>
 Dual<T, N> pow(const Dual<T, N>& x, double y) {
   return Dual<T, N>::chain(x, pow(x.value, y), T(y) * pow(x.value, y - 1.0));

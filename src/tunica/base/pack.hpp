@@ -61,10 +61,22 @@ struct Pack {
   TUNICA_INLINE void set(int lane, double value) { v[lane] = value; }
 
   TUNICA_INLINE Pack operator-() const { return Pack(-v); }
-  TUNICA_INLINE Pack& operator+=(const Pack& b) { v += b.v; return *this; }
-  TUNICA_INLINE Pack& operator-=(const Pack& b) { v -= b.v; return *this; }
-  TUNICA_INLINE Pack& operator*=(const Pack& b) { v *= b.v; return *this; }
-  TUNICA_INLINE Pack& operator/=(const Pack& b) { v /= b.v; return *this; }
+  TUNICA_INLINE Pack& operator+=(const Pack& b) {
+    v += b.v;
+    return *this;
+  }
+  TUNICA_INLINE Pack& operator-=(const Pack& b) {
+    v -= b.v;
+    return *this;
+  }
+  TUNICA_INLINE Pack& operator*=(const Pack& b) {
+    v *= b.v;
+    return *this;
+  }
+  TUNICA_INLINE Pack& operator/=(const Pack& b) {
+    v /= b.v;
+    return *this;
+  }
   friend TUNICA_INLINE Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
   friend TUNICA_INLINE Pack operator-(const Pack& a, const Pack& b) { return Pack(a.v - b.v); }
   friend TUNICA_INLINE Pack operator*(const Pack& a, const Pack& b) { return Pack(a.v * b.v); }
@@ -92,9 +104,13 @@ TUNICA_INLINE bool any(const Mask& mask) {
 TUNICA_INLINE double max(double a, double b) { return a > b ? a : b; }
 TUNICA_INLINE double min(double a, double b) { return a < b ? a : b; }
 template <int W>
-TUNICA_INLINE Pack<W> max(const Pack<W>& a, const Pack<W>& b) { return Pack<W>(a.v > b.v ? a.v : b.v); }
+TUNICA_INLINE Pack<W> max(const Pack<W>& a, const Pack<W>& b) {
+  return Pack<W>(a.v > b.v ? a.v : b.v);
+}
 template <int W>
-TUNICA_INLINE Pack<W> min(const Pack<W>& a, const Pack<W>& b) { return Pack<W>(a.v < b.v ? a.v : b.v); }
+TUNICA_INLINE Pack<W> min(const Pack<W>& a, const Pack<W>& b) {
+  return Pack<W>(a.v < b.v ? a.v : b.v);
+}
 
 // --- elementary functions ---------------------------------------------------------------------------------------
 
@@ -122,7 +138,9 @@ TUNICA_INLINE Pack<W> sqrt(const Pack<W>& x) {
   return r;
 }
 template <int W>
-TUNICA_INLINE Pack<W> abs(const Pack<W>& x) { return Pack<W>(x.v < 0.0 ? -x.v : x.v); }
+TUNICA_INLINE Pack<W> abs(const Pack<W>& x) {
+  return Pack<W>(x.v < 0.0 ? -x.v : x.v);
+}
 
 /// e^x. Range reduction to |r| <= ln 2 / 2 and a degree-13 Taylor polynomial; error below 1 ulp for
 /// -708 < x < 709. Larger arguments give +infinity and smaller ones 0, NaN stays NaN.
@@ -177,7 +195,9 @@ TUNICA_INLINE Pack<W> log(const Pack<W>& x) {
 
 /// x^y for x >= 0 (0^0 is NaN). The relative error grows with |y ln x|.
 template <int W>
-TUNICA_INLINE Pack<W> pow(const Pack<W>& x, double y) { return exp(log(x) * Pack<W>(y)); }
+TUNICA_INLINE Pack<W> pow(const Pack<W>& x, double y) {
+  return exp(log(x) * Pack<W>(y));
+}
 
 // --- transposing between "one lane per element" and "one row per element" -----------------------------------------
 
@@ -189,9 +209,13 @@ inline constexpr int lanes<Pack<W>> = W;
 
 TUNICA_INLINE double lane(double x, int) { return x; }
 template <int W>
-TUNICA_INLINE double lane(const Pack<W>& x, int i) { return x.v[i]; }
+TUNICA_INLINE double lane(const Pack<W>& x, int i) {
+  return x.v[i];
+}
 TUNICA_INLINE void set_lane(double& x, int, double value) { x = value; }
 template <int W>
-TUNICA_INLINE void set_lane(Pack<W>& x, int i, double value) { x.v[i] = value; }
+TUNICA_INLINE void set_lane(Pack<W>& x, int i, double value) {
+  x.v[i] = value;
+}
 
 }  // namespace tunica

@@ -29,15 +29,21 @@ TUNICA_INLINE Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
   return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
 }
 template <class T>
-TUNICA_INLINE Vec3<T> operator*(const T& s, const Vec3<T>& a) { return {{s * a[0], s * a[1], s * a[2]}}; }
+TUNICA_INLINE Vec3<T> operator*(const T& s, const Vec3<T>& a) {
+  return {{s * a[0], s * a[1], s * a[2]}};
+}
 template <class T>
-TUNICA_INLINE T dot(const Vec3<T>& a, const Vec3<T>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+TUNICA_INLINE T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 template <class T>
 TUNICA_INLINE Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
   return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }
 template <class T>
-TUNICA_INLINE T norm(const Vec3<T>& a) { return sqrt(dot(a, a)); }
+TUNICA_INLINE T norm(const Vec3<T>& a) {
+  return sqrt(dot(a, a));
+}
 
 template <class T>
 TUNICA_INLINE Mat3<T> identity() {
@@ -79,7 +85,9 @@ TUNICA_INLINE Mat3<T> transpose(const Mat3<T>& a) {
   return r;
 }
 template <class T>
-TUNICA_INLINE T trace(const Mat3<T>& a) { return a(0, 0) + a(1, 1) + a(2, 2); }
+TUNICA_INLINE T trace(const Mat3<T>& a) {
+  return a(0, 0) + a(1, 1) + a(2, 2);
+}
 template <class T>
 TUNICA_INLINE T double_dot(const Mat3<T>& a, const Mat3<T>& b) {
   T s = a(0, 0) * b(0, 0);
@@ -103,6 +111,8 @@ TUNICA_INLINE Mat3<T> adjugate(const Mat3<T>& a) {
   return r;
 }
 template <class T>
-TUNICA_INLINE Mat3<T> inverse(const Mat3<T>& a) { return (T(1.0) / determinant(a)) * adjugate(a); }
+TUNICA_INLINE Mat3<T> inverse(const Mat3<T>& a) {
+  return (T(1.0) / determinant(a)) * adjugate(a);
+}
 
 }  // namespace tunica

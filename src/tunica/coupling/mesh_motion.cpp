@@ -1,6 +1,7 @@
 #include "tunica/coupling/mesh_motion.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -24,15 +24,15 @@ struct RegionData {
 
 struct FaceData {
   std::string name;
-  std::int32_t region;                                ///< index of the region it bounds
+  std::int32_t region;                                 ///< index of the region it bounds
   std::vector<std::array<std::int64_t, 3>> triangles;  ///< nodes, seen from outside the region counter-clockwise
 };
 
 /// Where a region's nodes and elements stand in the file they came from (for messages and output).
 struct MeshData {
-  std::vector<Vec3<double>> points;                      ///< m
-  std::vector<std::array<std::int64_t, 4>> tetrahedra;   ///< positive orientation
-  std::vector<RegionData> regions;                       ///< at most one lumen, any number of wall regions
+  std::vector<Vec3<double>> points;                     ///< m
+  std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< positive orientation
+  std::vector<RegionData> regions;                      ///< at most one lumen, any number of wall regions
   std::vector<FaceData> faces;
   std::vector<std::pair<std::int64_t, std::int64_t>> twins;  ///< (wall node, lumen node hosting its motion)
 };
