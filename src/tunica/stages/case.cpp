@@ -126,7 +126,7 @@ struct OutputUnit {
 constexpr OutputUnit output_units[] = {
     {"length", &OutputUnits::length, dimension::length,
      "Coordinates, displacement; squared and cubed for area and volume"},
-    {"time", &OutputUnits::time, dimension::time, "Time"},
+    {"time", &OutputUnits::time, dimension::time, "Time in histories and on the screen; series for ParaView count in s"},
     {"velocity", &OutputUnits::velocity, dimension::velocity, "Velocity"},
     {"pressure", &OutputUnits::pressure, dimension::pressure, "Pressure"},
     {"stress", &OutputUnits::stress, dimension::pressure, "Stress and traction"},
