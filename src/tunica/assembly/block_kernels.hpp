@@ -9,13 +9,16 @@
 namespace tunica::assembly {
 
 /// Incomplete factors of the velocity block, single precision, 3 x 4 floats per block: column by column, each column
-/// padded to four. Only columns of owned nodes take part.
+/// padded to four. Only columns of owned nodes take part. Lower and upper blocks stand apart, so that each sweep of a
+/// solve streams through just the half that it needs.
 struct IluFactors {
+  struct Triangle {
+    const std::int32_t* row_begin = nullptr;  ///< rows + 1
+    const std::int32_t* columns = nullptr;    ///< ascending in each row, without the diagonal
+    float* blocks = nullptr;                  ///< 12 floats each
+  };
   std::int32_t rows = 0;
-  const std::int32_t* row_begin = nullptr;    ///< first lower block of each row, rows + 1
-  const std::int32_t* upper_begin = nullptr;  ///< first block right of the diagonal
-  const std::int32_t* columns = nullptr;      ///< without the diagonal
-  float* blocks = nullptr;
+  Triangle lower, upper;
   float* inverse_diagonal = nullptr;  ///< 12 floats per row
 };
 
@@ -26,6 +29,12 @@ struct BlockKernels {
   /// The same for 3 x 3 blocks with padded columns (12 floats); x and y keep stride 4, the fourth entry of y is 0.
   void (*multiply3)(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
                     const double* x, double* y);
+  /// y_i = sum over row i of d . x, for 1 x 3 blocks d (4 floats, the fourth 0); x: [column][4].
+  void (*multiply_rows)(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns,
+                        const float* blocks, const double* x, double* y);
+  /// y = sum over row i of g x, for 3 x 1 blocks g (4 floats, the fourth 0); x: [column], y: [row][4].
+  void (*multiply_columns)(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns,
+                           const float* blocks, const double* x, double* y);
   /// x = (L D U)^-1 x, x: [row][4] single precision, the fourth entry unused.
   void (*ilu_solve)(const IluFactors& factors, float* x);
   /// Computes the factors in place; `position` is scratch of `rows` integers, all -1 on entry and exit.

@@ -82,60 +82,98 @@ inline bool invert(const float* a, float* inverse) {
   return true;
 }
 
+// s - sum over the row's blocks of block x.
+TUNICA_INLINE Float4 eliminate(const IluFactors::Triangle& t, std::int32_t row, Float4 s, const float* x) {
+  for (std::int32_t b = t.row_begin[row]; b < t.row_begin[row + 1]; ++b)
+    s -= product(t.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(t.columns[b]));
+  return s;
+}
+
 template <int W>
 void ilu_solve(const IluFactors& f, float* x) {
   for (std::int32_t row = 0; row < f.rows; ++row) {
-    Float4 s = load4(x + 4 * static_cast<std::ptrdiff_t>(row));
-    for (std::int32_t b = f.row_begin[row]; b < f.upper_begin[row]; ++b)
-      s -= product(f.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(f.columns[b]));
-    store4(x + 4 * static_cast<std::ptrdiff_t>(row), s);
+    float* own = x + 4 * static_cast<std::ptrdiff_t>(row);
+    store4(own, eliminate(f.lower, row, load4(own), x));
   }
   for (std::int32_t row = f.rows - 1; row >= 0; --row) {
-    Float4 s = load4(x + 4 * static_cast<std::ptrdiff_t>(row));
-    for (std::int32_t b = f.upper_begin[row]; b < f.row_begin[row + 1]; ++b)
-      s -= product(f.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(f.columns[b]));
-    float t[4];
-    store4(t, s);
-    store4(x + 4 * static_cast<std::ptrdiff_t>(row),
-           product(f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(row), t));
+    float* own = x + 4 * static_cast<std::ptrdiff_t>(row);
+    float s[4];
+    store4(s, eliminate(f.upper, row, load4(own), x));
+    store4(own, product(f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(row), s));
   }
+}
+
+// Marks (or unmarks) where the blocks of a row stand.
+inline void mark(const IluFactors::Triangle& t, std::int32_t row, std::int32_t* position, bool set) {
+  for (std::int32_t b = t.row_begin[row]; b < t.row_begin[row + 1]; ++b) position[t.columns[b]] = set ? b : -1;
 }
 
 // Block ILU(0), row by row (Saad 2003, algorithm 10.4). On entry `inverse_diagonal` holds the diagonal blocks.
 template <int W>
 std::int32_t ilu_factorise(const IluFactors& f, std::int32_t* position) {
-  for (std::int32_t i = 0; i < f.rows; ++i) {
-    for (std::int32_t b = f.row_begin[i]; b < f.row_begin[i + 1]; ++b) position[f.columns[b]] = b;
+  std::int32_t singular = -1;
+  for (std::int32_t i = 0; i < f.rows && singular < 0; ++i) {
+    mark(f.lower, i, position, true);
+    mark(f.upper, i, position, true);
     float* diagonal = f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(i);
-    for (std::int32_t b = f.row_begin[i]; b < f.upper_begin[i]; ++b) {
-      const std::int32_t k = f.columns[b];
-      float* lower = f.blocks + 12 * static_cast<std::ptrdiff_t>(b);
+    for (std::int32_t b = f.lower.row_begin[i]; b < f.lower.row_begin[i + 1]; ++b) {
+      const std::int32_t k = f.lower.columns[b];
+      float* lower = f.lower.blocks + 12 * static_cast<std::ptrdiff_t>(b);
       float scaled[12] = {};
       const float* inverse = f.inverse_diagonal + 12 * static_cast<std::ptrdiff_t>(k);
       for (int j = 0; j < 3; ++j) store4(scaled + 4 * j, product(lower, inverse + 4 * j));
       for (int j = 0; j < 12; ++j) lower[j] = scaled[j];
-      for (std::int32_t u = f.upper_begin[k]; u < f.row_begin[k + 1]; ++u) {
-        const std::int32_t j = f.columns[u];
-        const float* upper = f.blocks + 12 * static_cast<std::ptrdiff_t>(u);
+      for (std::int32_t u = f.upper.row_begin[k]; u < f.upper.row_begin[k + 1]; ++u) {
+        const std::int32_t j = f.upper.columns[u];
+        const float* upper = f.upper.blocks + 12 * static_cast<std::ptrdiff_t>(u);
         if (j == i)
           subtract_product(diagonal, lower, upper);
         else if (position[j] >= 0)
-          subtract_product(f.blocks + 12 * static_cast<std::ptrdiff_t>(position[j]), lower, upper);
+          subtract_product((j < i ? f.lower : f.upper).blocks + 12 * static_cast<std::ptrdiff_t>(position[j]), lower,
+                           upper);
       }
     }
-    for (std::int32_t b = f.row_begin[i]; b < f.row_begin[i + 1]; ++b) position[f.columns[b]] = -1;
     float inverse[12];
-    if (!invert(diagonal, inverse)) return i;
-    for (int j = 0; j < 12; ++j) diagonal[j] = inverse[j];
+    if (invert(diagonal, inverse))
+      for (int j = 0; j < 12; ++j) diagonal[j] = inverse[j];
+    else
+      singular = i;
+    mark(f.lower, i, position, false);
+    mark(f.upper, i, position, false);
   }
-  return -1;
+  return singular;
+}
+
+template <int W>
+void multiply_rows(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
+                   const double* x, double* y) {
+  for (std::int32_t row = 0; row < rows; ++row) {
+    Double4 s{};
+    for (std::int32_t b = row_begin[row]; b < row_begin[row + 1]; ++b) {
+      Double4 v;
+      __builtin_memcpy(&v, x + 4 * static_cast<std::ptrdiff_t>(columns[b]), sizeof v);
+      s += __builtin_convertvector(load4(blocks + 4 * static_cast<std::ptrdiff_t>(b)), Double4) * v;
+    }
+    y[row] = s[0] + s[1] + s[2];
+  }
+}
+
+template <int W>
+void multiply_columns(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns,
+                      const float* blocks, const double* x, double* y) {
+  for (std::int32_t row = 0; row < rows; ++row) {
+    Double4 s{};
+    for (std::int32_t b = row_begin[row]; b < row_begin[row + 1]; ++b)
+      s += __builtin_convertvector(load4(blocks + 4 * static_cast<std::ptrdiff_t>(b)), Double4) * x[columns[b]];
+    __builtin_memcpy(y + 4 * static_cast<std::ptrdiff_t>(row), &s, sizeof s);
+  }
 }
 
 }  // namespace
 
 template <int W>
 BlockKernels make_block_kernels() {
-  return {&multiply<W>, &multiply3<W>, &ilu_solve<W>, &ilu_factorise<W>};
+  return {&multiply<W>, &multiply3<W>, &multiply_rows<W>, &multiply_columns<W>, &ilu_solve<W>, &ilu_factorise<W>};
 }
 
 }  // namespace tunica::assembly

@@ -17,27 +17,21 @@ using parallel::check;
 SchurPreconditioner::SchurPreconditioner(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa)
     : mesh_(mesh), pattern_(pattern), isa_(isa) {
   const std::int32_t n = pattern.rows;
-  ilu_row_begin_.push_back(0);
   for (std::int32_t i = 0; i < n; ++i) {
-    ilu_upper_begin_.push_back(0);
     for (auto b = pattern.row_begin[i]; b < pattern.row_begin[i + 1]; ++b) {
       const auto column = pattern.columns[b];
-      if (column == i) ilu_upper_begin_[i] = static_cast<std::int32_t>(ilu_columns_.size());
       if (column == i || column >= n) continue;
-      ilu_columns_.push_back(column);
-      ilu_source_.push_back(b);
+      Triangle& triangle = column < i ? lower_ : upper_;
+      triangle.columns.push_back(column);
+      triangle.source.push_back(b);
     }
-    ilu_row_begin_.push_back(static_cast<std::int32_t>(ilu_columns_.size()));
+    for (auto* triangle : {&lower_, &upper_})
+      triangle->row_begin.push_back(static_cast<std::int32_t>(triangle->columns.size()));
   }
-  ilu_blocks_.resize(12 * ilu_columns_.size());
-  ilu_inverse_diagonal_.resize(12 * static_cast<std::size_t>(n));
+  for (auto* triangle : {&lower_, &upper_}) triangle->blocks.resize(12 * triangle->columns.size());
+  inverse_blocks_.resize(12 * static_cast<std::size_t>(n));
   scratch_.assign(n, -1);
-  factors_ = {n,
-              ilu_row_begin_.data(),
-              ilu_upper_begin_.data(),
-              ilu_columns_.data(),
-              ilu_blocks_.data(),
-              ilu_inverse_diagonal_.data()};
+  factors_ = {n, lower_.view(), upper_.view(), inverse_blocks_.data()};
 
   divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
   gradient_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
@@ -115,9 +109,11 @@ std::int32_t SchurPreconditioner::factorise_shifted(const BlockMatrix& matrix, f
     }
   };
   const float off_diagonal = 1.0F / (1.0F + shift);
-  for (std::size_t k = 0; k < ilu_source_.size(); ++k) copy(ilu_source_[k], off_diagonal, ilu_blocks_.data() + 12 * k);
+  for (auto* triangle : {&lower_, &upper_})
+    for (std::size_t k = 0; k < triangle->source.size(); ++k)
+      copy(triangle->source[k], off_diagonal, triangle->blocks.data() + 12 * k);
   for (std::int32_t i = 0; i < pattern_.rows; ++i)
-    copy(pattern_.diagonal[i], 1.0F, ilu_inverse_diagonal_.data() + 12 * static_cast<std::size_t>(i));
+    copy(pattern_.diagonal[i], 1.0F, inverse_blocks_.data() + 12 * static_cast<std::size_t>(i));
   return block_kernels(isa_).ilu_factorise(factors_, scratch_.data());
 }
 
@@ -230,15 +226,8 @@ void SchurPreconditioner::apply(std::span<const double> r, std::span<double> z) 
   mesh_.halo.update(halo_v_, 4);
   double* rhs = nullptr;
   check(VecGetArray(rhs_.get(), &rhs));
-  for (std::int32_t i = 0; i < n; ++i) {
-    double s = r[4 * static_cast<std::size_t>(i) + 3];
-    for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
-      const float* d = divergence_.data() + 4 * static_cast<std::size_t>(b);
-      const double* v = halo_v_.data() + 4 * static_cast<std::size_t>(pattern_.columns[b]);
-      s -= d[0] * v[0] + d[1] * v[1] + d[2] * v[2];
-    }
-    rhs[i] = s;
-  }
+  kernels.multiply_rows(n, pattern_.row_begin.data(), pattern_.columns.data(), divergence_.data(), halo_v_.data(), rhs);
+  for (std::int32_t i = 0; i < n; ++i) rhs[i] = r[4 * static_cast<std::size_t>(i) + 3] - rhs[i];
   check(VecRestoreArray(rhs_.get(), &rhs));
   check(PCApply(multigrid_.get(), rhs_.get(), solution_.get()));
 
@@ -247,16 +236,11 @@ void SchurPreconditioner::apply(std::span<const double> r, std::span<double> z) 
   for (std::int32_t i = 0; i < n; ++i) halo_p_[i] = z[4 * static_cast<std::size_t>(i) + 3] = p[i];
   check(VecRestoreArrayRead(solution_.get(), &p));
   mesh_.halo.update(halo_p_, 1);
-  for (std::int32_t i = 0; i < n; ++i) {
-    double s[3] = {};
-    for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
-      const float* g = gradient_.data() + 4 * static_cast<std::size_t>(b);
-      const double q = halo_p_[pattern_.columns[b]];
-      for (int c = 0; c < 3; ++c) s[c] += g[c] * q;
-    }
-    for (int c = 0; c < 3; ++c)
-      z[4 * static_cast<std::size_t>(i) + c] = z_[4 * static_cast<std::size_t>(i) + c] - inverse_diagonal_[i] * s[c];
-  }
+  kernels.multiply_columns(n, pattern_.row_begin.data(), pattern_.columns.data(), gradient_.data(), halo_p_.data(),
+                           halo_v_.data());
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c)
+      z[k + c] = z_[k + c] - inverse_diagonal_[i] * halo_v_[k + c];
 }
 
 }  // namespace tunica::assembly

@@ -49,8 +49,15 @@ class SchurPreconditioner {
   Isa isa_;
 
   // K: factors on owned columns.
-  std::vector<std::int32_t> ilu_row_begin_, ilu_upper_begin_, ilu_columns_, ilu_source_, scratch_;
-  std::vector<float> ilu_blocks_, ilu_inverse_diagonal_;
+  struct Triangle {
+    std::vector<std::int32_t> row_begin{0}, columns, source;  ///< source: block of the matrix
+    std::vector<float> blocks;
+
+    IluFactors::Triangle view() { return {row_begin.data(), columns.data(), blocks.data()}; }
+  };
+  Triangle lower_, upper_;
+  std::vector<float> inverse_blocks_;  ///< of the diagonal, [row][12]
+  std::vector<std::int32_t> scratch_;
   IluFactors factors_;
 
   std::vector<float> divergence_, gradient_;  ///< D and G, [block][4], the fourth entry unused

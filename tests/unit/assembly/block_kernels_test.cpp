@@ -15,25 +15,29 @@ using test::noise;
 
 // A block matrix with its factors; blocks couple rows at the distances of `bands` (0 is always there).
 struct Factorisable {
+  struct Triangle {
+    std::vector<std::int32_t> row_begin{0}, columns;
+    std::vector<float> blocks;
+    IluFactors::Triangle view() { return {row_begin.data(), columns.data(), blocks.data()}; }
+  };
   std::int32_t rows;
-  std::vector<std::int32_t> row_begin{0}, upper_begin, columns, position;
-  std::vector<float> blocks, diagonal;
+  Triangle lower, upper;
+  std::vector<std::int32_t> position;
+  std::vector<float> diagonal;
   std::vector<double> dense;  // row-major, 3 rows x 3 rows
 
   Factorisable(std::int32_t n, const std::set<std::int32_t>& bands)
       : rows(n), position(static_cast<std::size_t>(n), -1), dense(9 * static_cast<std::size_t>(n) * n, 0.0) {
     for (std::int32_t i = 0; i < n; ++i) {
-      upper_begin.push_back(0);
       for (std::int32_t j = 0; j < n; ++j) {
-        if (j == i) {
-          upper_begin.back() = static_cast<std::int32_t>(columns.size());
-          add_block(i, j, diagonal);
-        } else if (bands.contains(std::abs(i - j))) {
-          columns.push_back(j);
-          add_block(i, j, blocks);
-        }
+        if (j == i) add_block(i, j, diagonal);
+        if (j == i || !bands.contains(std::abs(i - j))) continue;
+        Triangle& triangle = j < i ? lower : upper;
+        triangle.columns.push_back(j);
+        add_block(i, j, triangle.blocks);
       }
-      row_begin.push_back(static_cast<std::int32_t>(columns.size()));
+      for (auto* triangle : {&lower, &upper})
+        triangle->row_begin.push_back(static_cast<std::int32_t>(triangle->columns.size()));
     }
   }
   void add_block(std::int32_t row, std::int32_t column, std::vector<float>& to) {
@@ -49,9 +53,7 @@ struct Factorisable {
         dense[(3 * static_cast<std::size_t>(row) + i) * 3 * rows + 3 * column + j] = value;
       }
   }
-  IluFactors factors() {
-    return {rows, row_begin.data(), upper_begin.data(), columns.data(), blocks.data(), diagonal.data()};
-  }
+  IluFactors factors() { return {rows, lower.view(), upper.view(), diagonal.data()}; }
 };
 
 // Gaussian elimination without pivoting, enough for dominant diagonals.
@@ -111,10 +113,11 @@ TEST(BlockKernels, ProductOfIncompleteFactorsAgreesOnThePattern) {
     std::set<std::pair<std::int32_t, std::int32_t>> pattern;
     for (std::int32_t i = 0; i < n; ++i) {
       pattern.insert({i, i});
-      for (auto b = matrix.row_begin[i]; b < matrix.row_begin[i + 1]; ++b) {
-        put(b < matrix.upper_begin[i] ? lower : upper, i, matrix.columns[b], matrix.blocks.data() + 12 * b);
-        pattern.insert({i, matrix.columns[b]});
-      }
+      for (const auto& [triangle, to] : {std::pair{&matrix.lower, &lower}, {&matrix.upper, &upper}})
+        for (auto b = triangle->row_begin[i]; b < triangle->row_begin[i + 1]; ++b) {
+          put(*to, i, triangle->columns[b], triangle->blocks.data() + 12 * static_cast<std::size_t>(b));
+          pattern.insert({i, triangle->columns[b]});
+        }
       // D from its inverse, column by column.
       std::vector<double> inverse(9);
       for (int j = 0; j < 3; ++j)
@@ -144,8 +147,8 @@ TEST(BlockKernels, NamesTheRowOfASingularDiagonalAndCleansUp) {
       SCOPED_TRACE(name(isa));
       Factorisable matrix(n, {1});
       for (int k = 0; k < 12; ++k) matrix.diagonal[12 * bad + k] = value;
-      for (auto b = matrix.row_begin[bad]; b < matrix.upper_begin[bad]; ++b)
-        for (int k = 0; k < 12; ++k) matrix.blocks[12 * static_cast<std::size_t>(b) + k] = 0.0F;
+      for (auto b = matrix.lower.row_begin[bad]; b < matrix.lower.row_begin[bad + 1]; ++b)
+        for (int k = 0; k < 12; ++k) matrix.lower.blocks[12 * static_cast<std::size_t>(b) + k] = 0.0F;
       EXPECT_EQ(block_kernels(isa).ilu_factorise(matrix.factors(), matrix.position.data()), bad);
       EXPECT_EQ(matrix.position, std::vector<std::int32_t>(n, -1)) << "the next factorisation would read these";
     }

@@ -20,12 +20,8 @@ TEST(SchurPreconditioner, NamesTheNodeOfASingularBlockOnEveryRank) {
   std::int64_t bad = -1;  // the node at (1, 1, 1)
   for (std::size_t i = 0; i < data.points.size(); ++i)
     if (norm(data.points[i] - Vec3<double>{{1, 1, 1}}) < 1e-9) bad = static_cast<std::int64_t>(i);
-  bool mine = false;
   for (std::int32_t i = 0; i < pattern.rows; ++i) {
-    if (mesh.original_ids[i] == bad) {
-      mine = true;
-      continue;
-    }
+    if (mesh.original_ids[i] == bad) continue;
     for (int c = 0; c < 4; ++c) matrix.blocks[pattern.diagonal[i]].a[5 * c] = c < 3 ? 1.0F : -1.0F;
   }
   SchurPreconditioner preconditioner(mesh, pattern, choose_isa());
@@ -33,8 +29,7 @@ TEST(SchurPreconditioner, NamesTheNodeOfASingularBlockOnEveryRank) {
     preconditioner.update(matrix);
     ADD_FAILURE() << "no error";
   } catch (const SolverError& error) {
-    EXPECT_NE(std::string(error.what()).find(mine ? "(1, 1, 1) m" : "on another rank"), std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("(1, 1, 1) m"), std::string::npos) << error.what();
   }
 }
 
