@@ -280,6 +280,12 @@ void Problem::update(const State& old_state, State& next, const Instant& instant
 
 Problem::Targets Problem::start(State& next, const Instant& instant, double& norm) {
   assemble(next, instant, true);
+  double sum = 0;
+  for (std::size_t i = 0; i < at(mesh_.owned_nodes); ++i) sum += residual_[i];
+  if (!std::isfinite(parallel::global_sum(mesh_.comm, sum))) {  // inverted elements: no use in factorising
+    norm = std::numeric_limits<double>::quiet_NaN();
+    return {0.0, 0.0};
+  }
   {
     const Stopwatch watch(timings_.set_up);
     solver_.update_preconditioner(matrix_, outlets_);
@@ -328,7 +334,8 @@ void Problem::iterate(const State& old_state, State& next, const Instant& instan
   for (int k = 0;; ++k) {
     report.final_norm = norm;
     if (!std::isfinite(norm)) {
-      report.failure = "the residual is not a finite number";
+      report.failure = k == 0 ? "an element of the wall or the lumen is inverted, or a load is not a finite number"
+                              : "the residual is not a finite number";
       return;
     }
     if (norm <= target.converged && (k > 0 || norm <= target.noise)) {
