@@ -49,12 +49,12 @@ namespace detail {
 
 template <class M>
 struct Unwrap {
-  using type = M;
+  using Type = M;
   static constexpr bool optional = false;
 };
 template <class M>
 struct Unwrap<std::optional<M>> {
-  using type = M;
+  using Type = M;
   static constexpr bool optional = true;
 };
 
@@ -93,7 +93,7 @@ class Schema {
   template <class A>
   using Member = std::remove_cvref_t<std::invoke_result_t<A, T&>>;
   template <class A>
-  using Plain = typename detail::Unwrap<Member<A>>::type;
+  using Plain = typename detail::Unwrap<Member<A>>::Type;
 
  public:
   using Object = T;
@@ -301,8 +301,8 @@ class Schema {
   // --- modifiers --------------------------------------------------------------------------------------------------
 
   /// The key may be left out; `text` (YAML) is then read in its place.
-  Schema& by_default(std::string text) {
-    last().default_text = std::move(text);
+  Schema& by_default(const std::string& text) {
+    last().default_text = text;
     last().required = false;
     return *this;
   }

@@ -9,15 +9,15 @@
 
 namespace tunica::parallel {
 
-void check(PetscErrorCode code, std::source_location place) {
+void check(PetscErrorCode code, const char* file, int line) {
   if (code == 0) return;
   const char* general = nullptr;
   char* specific = nullptr;
   PetscErrorMessage(code, &general, &specific);
-  std::string_view file = place.file_name();
-  file.remove_prefix(file.find_last_of('/') + 1);
+  std::string_view name = file;
+  name.remove_prefix(name.find_last_of('/') + 1);
   throw SolverError(fmt::format("PETSc error {} ({}) called from {}:{}: {}", static_cast<int>(code),
-                                general != nullptr ? general : "unknown", file, place.line(),
+                                general != nullptr ? general : "unknown", name, line,
                                 specific != nullptr ? specific : ""));
 }
 

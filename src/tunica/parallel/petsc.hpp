@@ -3,7 +3,6 @@
 
 #include <petscksp.h>
 
-#include <source_location>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +10,7 @@
 namespace tunica::parallel {
 
 /// Turns a PETSc error code into a SolverError that says what PETSc reported and where it was called.
-void check(PetscErrorCode code, std::source_location place = std::source_location::current());
+void check(PetscErrorCode code, const char* file = __builtin_FILE(), int line = __builtin_LINE());
 
 /// Owns one PETSc object: `VecHandle x; check(VecCreate(comm, x.out()));`, then pass `x` where PETSc wants a Vec.
 /// Move-only. Destroying is collective: handles go out of scope on all ranks in the same order, before the Session.
@@ -32,7 +31,7 @@ class Handle {
   ~Handle() { reset(); }
 
   T get() const { return object_; }
-  operator T() const { return object_; }
+  operator T() const { return object_; }  // NOLINT: implicit, so that handles pass where PETSc wants its own types
 
   /// Where a create function stores its object; one that is held already is destroyed first.
   T* out() {
