@@ -35,11 +35,11 @@ mpi_environment() {
 # build_dir PRESET: where CMakePresets.json puts that build.
 build_dir() { echo "$TUNICA_ROOT/build/$1"; }
 
-# configure_and_build PRESET
+# configure_and_build PRESET [TARGET]: everything, or one target.
 configure_and_build() {
-  local preset=$1
+  local preset=$1 target=${2:-all}
   say "configure: preset $preset"
   (cd "$TUNICA_ROOT" && cmake --preset "$preset")
   say "build: preset $preset, $(build_jobs) jobs"
-  cmake --build "$(build_dir "$preset")" --parallel "$(build_jobs)"
+  cmake --build "$(build_dir "$preset")" --target "$target" --parallel "$(build_jobs)"
 }
