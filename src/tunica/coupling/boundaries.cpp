@@ -7,6 +7,7 @@
 #include <map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/whole_face.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -17,17 +18,6 @@ namespace tunica::coupling {
 using assembly::NodeConstraint;
 
 namespace {
-
-std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
-
-Vec3<double> vector_at(const double* field, std::int32_t node) {
-  const double* v = field + at(node);
-  return {{v[0], v[1], v[2]}};
-}
-
-void corners(const double* field, const std::array<std::int32_t, 3>& triangle, Vec3<double> (&out)[3]) {
-  for (int a = 0; a < 3; ++a) out[a] = vector_at(field, triangle[a]);
-}
 
 Vec3<double> mean_normal(const mesh::DistributedMesh& mesh, const mesh::Face& face) {
   double sum[3] = {};
@@ -285,9 +275,9 @@ void Boundaries::add_lumen_load(const Load& load, double value, const FieldsView
                                 assembly::BlockMatrix* matrix) const {
   for (const auto& triangle : mesh_.faces[load.face].triangles) {
     Vec3<double> x[3], v[3], w[3];
-    corners(fields.position, triangle, x);
-    corners(fields.velocity_pressure, triangle, v);
-    corners(fields.mesh_velocity, triangle, w);
+    gather(fields.position, triangle, x);
+    gather(fields.velocity_pressure, triangle, v);
+    gather(fields.mesh_velocity, triangle, w);
     fluid::TriangleVector<double> r{};
     fluid::TriangleMatrix<double> k{};
     if (load.kind == Load::Kind::lumen_pressure) {
@@ -310,7 +300,7 @@ void Boundaries::add_traction_field(const TractionField& load, double t, double 
                                     assembly::BlockMatrix* matrix) const {
   for (const auto& triangle : mesh_.faces[load.face].triangles) {
     Vec3<double> x[3], traction[3];
-    corners(fields.position, triangle, x);
+    gather(fields.position, triangle, x);
     for (int a = 0; a < 3; ++a) traction[a] = load.traction(mesh_.points[triangle[a]], t);
     const Vec3<double> sum = traction[0] + traction[1] + traction[2];
     const double share = -factor * fluid::area(x) / 12.0;  // integral of N_a N_b: A/6 for a = b, else A/12
@@ -327,9 +317,9 @@ void Boundaries::add_wall_load(const Load& load, double value, double factor, co
   for (const auto& own : mesh_.faces[load.face].triangles) {
     const std::array<std::int32_t, 3> triangle{mesh_.host[own[0]], mesh_.host[own[1]], mesh_.host[own[2]]};
     wall::SupportState<double> s;
-    corners(fields.reference_position, triangle, s.X);
-    corners(fields.displacement, triangle, s.u);
-    corners(fields.velocity_pressure, triangle, s.velocity);
+    gather(fields.reference_position, triangle, s.X);
+    gather(fields.displacement, triangle, s.u);
+    gather(fields.velocity_pressure, triangle, s.velocity);
     Vec3<double> x[3];
     for (int a = 0; a < 3; ++a) x[a] = s.X[a] + s.u[a];
     wall::SurfaceVector<double> r{};
@@ -391,9 +381,9 @@ std::vector<double> Boundaries::outlet_flows(const FieldsView& fields) const {
     double sum = 0;
     for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
       Vec3<double> x[3], v[3], w[3];
-      corners(fields.position, face.triangles[t], x);
-      corners(fields.velocity_pressure, face.triangles[t], v);
-      corners(fields.mesh_velocity, face.triangles[t], w);
+      gather(fields.position, face.triangles[t], x);
+      gather(fields.velocity_pressure, face.triangles[t], v);
+      gather(fields.mesh_velocity, face.triangles[t], w);
       sum += fluid::flow(x, v, w);
     }
     flows.push_back(sum);
@@ -409,7 +399,7 @@ std::vector<assembly::RankOne> Boundaries::add_outlets(std::span<const double> p
     std::map<std::int32_t, Vec3<double>> area;
     for (const auto& triangle : mesh_.faces[outlets_[k].face].triangles) {
       Vec3<double> x[3];
-      corners(fields.position, triangle, x);
+      gather(fields.position, triangle, x);
       const Vec3<double> third = fluid::nodal_area_vector(x);
       for (const auto node : triangle)
         if (node < mesh_.owned_nodes) area[node] = area[node] + third;

@@ -9,6 +9,7 @@
 #include "tunica/assembly/block_kernels.hpp"
 #include "tunica/assembly/multigrid.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/nodal.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::coupling {
@@ -17,8 +18,6 @@ using assembly::NodeConstraint;
 using parallel::check;
 
 namespace {
-
-std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
 
 template <class Visit>
 void for_each_lumen_element(const mesh::DistributedMesh& mesh, Visit visit) {

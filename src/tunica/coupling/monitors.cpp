@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "tunica/coupling/nodal.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/fluid/energy.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -14,18 +15,6 @@ namespace tunica::coupling {
 using mesh::RegionKind;
 
 namespace {
-
-std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
-
-Vec3<double> vector_at(const double* field, std::int32_t node) {
-  const double* v = field + at(node);
-  return {{v[0], v[1], v[2]}};
-}
-
-template <std::size_t N>
-void gather(const double* field, const std::array<std::int32_t, N>& nodes, Vec3<double> (&out)[N]) {
-  for (std::size_t a = 0; a < N; ++a) out[a] = vector_at(field, nodes[a]);
-}
 
 double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

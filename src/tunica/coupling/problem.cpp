@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/nodal.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::coupling {
@@ -15,8 +16,6 @@ namespace tunica::coupling {
 using assembly::TimeScheme;
 
 namespace {
-
-std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
 
 /// Adds the time between construction and destruction.
 class Stopwatch {

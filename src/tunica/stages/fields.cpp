@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tunica/config/units.hpp"
+#include "tunica/coupling/nodal.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/wall/output.hpp"
 
@@ -16,13 +17,10 @@ namespace dimension = config::dimension;
 using coupling::State;
 using mesh::RegionKind;
 
+using coupling::at;
+using coupling::vector_at;
+
 namespace {
-
-std::size_t at(std::int32_t node) { return 4 * static_cast<std::size_t>(node); }
-
-Vec3<double> vector_at(const std::vector<double>& field, std::int32_t node) {
-  return {{field[at(node)], field[at(node) + 1], field[at(node) + 2]}};
-}
 
 std::array<std::int32_t, 3> sorted(std::array<std::int32_t, 3> nodes) {
   std::sort(nodes.begin(), nodes.end());
@@ -71,7 +69,9 @@ void OutputFields::compute_shear_stress(const State& state) {
   const auto& mesh = problem_.mesh();
   shear_.assign(3 * static_cast<std::size_t>(mesh.nodes()), 0.0);
   std::vector<double> weight(static_cast<std::size_t>(mesh.nodes()), 0.0);
-  const auto position = [&](std::int32_t node) { return mesh.points[node] + vector_at(state.displacement, node); };
+  const auto position = [&](std::int32_t node) {
+    return mesh.points[node] + vector_at(state.displacement.data(), node);
+  };
   for (const auto& triangle : wall_triangles_) {
     Vec3<double> x[4], corners[3];
     for (int a = 0; a < 4; ++a) x[a] = position(triangle.element[a]);
@@ -79,7 +79,7 @@ void OutputFields::compute_shear_stress(const State& state) {
     const auto shape = fe::gradients(x);
     Mat3<double> gradient{};
     for (int a = 0; a < 4; ++a)
-      fluid::detail::add_outer(gradient, vector_at(state.velocity_pressure, triangle.element[a]), shape.dN[a]);
+      fluid::detail::add_outer(gradient, vector_at(state.velocity_pressure.data(), triangle.element[a]), shape.dN[a]);
     const double mu = std::visit([&](const auto& law) { return law.viscosity(fluid::shear_rate(gradient)); },
                                  problem_.input().fluid->viscosity);
     const Vec3<double> n = fluid::area_vector(corners);
@@ -108,7 +108,7 @@ void OutputFields::compute_wall_stress(const State& state) {
       wall::ElementState<double> s{};
       for (int a = 0; a < 4; ++a) {
         X[a] = mesh.points[elements[e][a]];
-        s.displacement[a] = vector_at(state.displacement, elements[e][a]);
+        s.displacement[a] = vector_at(state.displacement.data(), elements[e][a]);
         s.pressure[a] = state.velocity_pressure[at(elements[e][a]) + 3];
       }
       s.reference = fe::gradients(X);
