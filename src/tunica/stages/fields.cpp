@@ -14,11 +14,10 @@
 namespace tunica::stages {
 
 namespace dimension = config::dimension;
-using coupling::State;
-using mesh::RegionKind;
-
 using coupling::at;
+using coupling::State;
 using coupling::vector_at;
+using mesh::RegionKind;
 
 namespace {
 
