@@ -1,0 +1,117 @@
+#include "tunica/wall/fibres/directions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace tunica::wall {
+
+namespace {
+
+using Direction = Vec3<double>;
+
+Direction unit(const Direction& a) { return (1.0 / norm(a)) * a; }
+
+struct Triangle {
+  Direction A, B, C;
+
+  /// At the corners A, B, C and in the middle; edges are halved on the sphere.
+  std::array<Triangle, 4> split() const {
+    const Direction AB = unit(A + B), BC = unit(B + C), CA = unit(C + A);
+    return {{{A, AB, CA}, {AB, B, BC}, {CA, BC, C}, {AB, BC, CA}}};
+  }
+};
+
+/// Gauss points of an even number n, u and v of the square collapsed into the corner C, where a bivariate density may
+/// have no limit; dS = det(A, B, C) / |P|^3 on the flat triangle P = (1-v) ((1-u) A + u B) + v C.
+template <unsigned n>
+double integral(const Density& d, const Triangle& t) {
+  using Gauss = boost::math::quadrature::gauss<double, n>;
+  const auto along_v = [&](double v) {
+    return (1.0 - v) * Gauss::integrate(
+                           [&](double u) {
+                             const Direction P = (1.0 - v) * ((1.0 - u) * t.A + u * t.B) + v * t.C;
+                             const double r = norm(P);
+                             return density(d, (1.0 / r) * P) / (r * r * r);
+                           },
+                           0.0, 1.0);
+  };
+  return dot(t.A, cross(t.B, t.C)) * Gauss::integrate(along_v, 0.0, 1.0);
+}
+
+/// Integral over the triangle, split until two rules agree: to 1e-15 of all fibres, or as far as rounding allows.
+double adaptive_integral(const Density& d, const Triangle& t, int depth) {
+  const double fine = integral<8>(d, t), difference = std::abs(fine - integral<6>(d, t));
+  if (depth == 0 || difference <= std::max(1e-15, 1e-13 * fine)) return fine;
+  double sum = 0.0;
+  for (const Triangle& part : t.split()) sum += adaptive_integral(d, part, depth - 1);
+  return sum;
+}
+
+void add_triangles(const Density& d, const Triangle& t, int splits, DirectionSet& set) {
+  if (splits > 0) {
+    for (const Triangle& part : t.split()) add_triangles(d, part, splits - 1, set);
+    return;
+  }
+  set.directions.push_back(unit(t.A + t.B + t.C));
+  set.weights.push_back(adaptive_integral(d, t, 12) / (2.0 * std::numbers::pi));
+}
+
+}  // namespace
+
+bool is_octahedral_size(int count) {
+  while (count > 4 && count % 4 == 0) count /= 4;
+  return count == 4;
+}
+
+DirectionSet octahedral(const Density& d, int count) {
+  int splits = 0;
+  for (int n = count; n > 4; n /= 4) ++splits;
+  const Direction e1{{1.0, 0.0, 0.0}}, e2{{0.0, 1.0, 0.0}}, e3{{0.0, 0.0, 1.0}};
+  const Direction ring[] = {e1, e2, -1.0 * e1, -1.0 * e2, e1};
+  DirectionSet set;
+  set.directions.reserve(static_cast<std::size_t>(count));
+  set.weights.reserve(static_cast<std::size_t>(count));
+  for (int octant = 0; octant < 4; ++octant) add_triangles(d, {ring[octant], ring[octant + 1], e3}, splits, set);
+  return set;
+}
+
+DirectionSet merge(std::span<const DirectionSet> sets) {
+  constexpr double equal = 1e-12;
+  DirectionSet merged;
+  std::multimap<double, std::size_t> by_first;  // |N1|, which does not see the sign
+  for (const DirectionSet& set : sets)
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+      const Direction& N = set.directions[n];
+      const double key = std::abs(N[0]);
+      const auto last = by_first.upper_bound(key + equal);
+      const auto found = std::find_if(by_first.lower_bound(key - equal), last, [&](const auto& entry) {
+        const Direction& other = merged.directions[entry.second];
+        return std::min(norm(other - N), norm(other + N)) <= equal;
+      });
+      if (found != last) {
+        merged.weights[found->second] += set.weights[n];
+        continue;
+      }
+      by_first.emplace(key, merged.directions.size());
+      merged.directions.push_back(N);
+      merged.weights.push_back(set.weights[n]);
+    }
+  return merged;
+}
+
+void degrade(DirectionSet& set, const std::vector<Degradation>& ranges) {
+  constexpr double right_angle = 0.5 * std::numbers::pi, rounding = 1e-12;
+  for (const Degradation& range : ranges)
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+      const Direction& N = set.directions[n];
+      const double angle = std::atan2(std::hypot(N[0], N[1]), std::abs(N[2]));
+      if (angle >= range.from && (angle < range.to || range.to >= right_angle - rounding))
+        set.weights[n] *= range.factor;
+    }
+}
+
+}  // namespace tunica::wall
