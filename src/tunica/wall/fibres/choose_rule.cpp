@@ -43,8 +43,8 @@ Mat3<double> dyad(const Direction& a, const Direction& b) {
 }
 
 /// C of isochoric states in the axes m (mean), p (across it), q = e3 for a mean in the plane of the wall: uniaxial
-/// to 1.2 along m, p, q and between m and p; equibiaxial to 1.15 in m-p; simple shear of 0.5 in m-p both ways and in
-/// m-q.
+/// to 1.2 along m, p, q and between m and p; equibiaxial to 1.15 in m-p; simple shear of 0.5 in m-p along m both ways
+/// and along p, in m-q, and at 45 degrees so that the mean is compressed.
 std::vector<Stress> strain_states(const Direction& m) {
   const Direction reference = std::abs(m[2]) < 0.9 ? Direction{{0.0, 0.0, 1.0}} : Direction{{1.0, 0.0, 0.0}};
   const Direction projected = reference - dot(reference, m) * m, q = (1.0 / norm(projected)) * projected,
@@ -63,9 +63,18 @@ std::vector<Stress> strain_states(const Direction& m) {
                                  I + 0.5 * dyad(m, p),
                                  I + 0.5 * dyad(p, m),
                                  I + (-0.5) * dyad(m, p),
-                                 I + 0.5 * dyad(m, q)};
+                                 I + 0.5 * dyad(m, q),
+                                 I + (-0.5) * dyad(between * (m + p), between * (m - p))};
   std::vector<Stress> result;
   for (const Mat3<double>& F : states) result.push_back(right_cauchy_green(F));
+  // States in axes that no rule has a symmetry with.
+  const double oblique[][3] = {{0.80, 0.53, 0.28}, {0.45, -0.25, 0.86}, {-0.33, 0.79, 0.52}};
+  for (const auto& [x, y, z] : oblique) {
+    const Direction along = x * m + y * p + z * q, across = cross(along, y * m + z * p + x * q);
+    const Direction a = (1.0 / norm(along)) * along, b = (1.0 / norm(across)) * across;
+    for (const Mat3<double>& F : {stretched(1.2, a), stretched(1.0 / (1.15 * 1.15), a), I + 0.5 * dyad(a, b)})
+      result.push_back(right_cauchy_green(F));
+  }
   return result;
 }
 
@@ -106,23 +115,24 @@ class Measure {
       : fibre_{k2, tension_only},
         states_(strain_states(std::visit([](const auto& kind) { return mean_direction(kind); }, d))) {
     const DirectionSet fine = reference_set(d), isotropic = reference_set(VonMises{});
+    const Fibre linear{0.0, tension_only};
     for (const Stress& C : states_) {
-      reference_.push_back(stress(C, fine));
-      scale_.push_back(std::max(size(reference_.back()), size(stress(C, isotropic))));
+      reference_.push_back(stress(fibre_, C, fine));
+      scale_.push_back(std::max(size(reference_.back()), size(stress(linear, C, isotropic))));
     }
   }
 
   double error(const DirectionSet& set) const {
     double largest = 0.0;
     for (std::size_t n = 0; n < states_.size(); ++n)
-      largest = std::max(largest, size(stress(states_[n], set) + (-1.0) * reference_[n]) / scale_[n]);
+      largest = std::max(largest, size(stress(fibre_, states_[n], set) + (-1.0) * reference_[n]) / scale_[n]);
     return largest;
   }
 
  private:
-  Stress stress(const Stress& C, const DirectionSet& set) const {
+  static Stress stress(const Fibre& fibre, const Stress& C, const DirectionSet& set) {
     Stress S{};
-    for (std::size_t n = 0; n < set.directions.size(); ++n) fibre_.add(C, set.directions[n], set.weights[n], S);
+    for (std::size_t n = 0; n < set.directions.size(); ++n) fibre.add(C, set.directions[n], set.weights[n], S);
     return S;
   }
 

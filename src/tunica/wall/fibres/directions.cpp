@@ -42,12 +42,25 @@ double integral(const Density& d, const Triangle& t) {
   return dot(t.A, cross(t.B, t.C)) * Gauss::integrate(along_v, 0.0, 1.0);
 }
 
+/// At a corner in e3 a split into four leaves a triangle of the same angle, in which a bivariate density varies as
+/// before. This one halves the angle too.
+std::array<Triangle, 6> split_at_pole(const Triangle& t) {
+  const Direction AB = unit(t.A + t.B), A = unit(t.A + t.C), M = unit(AB + t.C), B = unit(t.B + t.C);
+  return {{{A, M, t.C}, {M, B, t.C}, {t.A, AB, A}, {AB, M, A}, {AB, t.B, M}, {t.B, B, M}}};
+}
+
 /// Integral over the triangle, split until two rules agree: to 1e-15 of all fibres, or as far as rounding allows.
 double adaptive_integral(const Density& d, const Triangle& t, int depth) {
   const double fine = integral<8>(d, t), difference = std::abs(fine - integral<6>(d, t));
   if (depth == 0 || difference <= std::max(1e-15, 1e-13 * fine)) return fine;
   double sum = 0.0;
-  for (const Triangle& part : t.split()) sum += adaptive_integral(d, part, depth - 1);
+  const auto add = [&](const auto& parts) {
+    for (const Triangle& part : parts) sum += adaptive_integral(d, part, depth - 1);
+  };
+  if (t.C[2] == 1.0)
+    add(split_at_pole(t));
+  else
+    add(t.split());
   return sum;
 }
 

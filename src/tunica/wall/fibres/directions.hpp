@@ -40,9 +40,10 @@ struct RuleChoice {
 /// The error of the fibre stress that a set makes: the largest |S - S_ref| / max(|S_ref|, |S_iso|), Frobenius norms,
 /// over isochoric strain states in the axes of the density: uniaxial extension to 1.2 along the mean, across it, along
 /// the third axis (e3 for a mean in the plane) and at 45 degrees; equibiaxial extension to 1.15; simple shear of 0.5
-/// along the mean both ways, across it, and out of the plane. S = 2 sum rho f' N x N with f of docs/theory.md (1.4),
-/// where k1 cancels; S_ref is a fine quadrature of the density, S_iso that of isotropic fibres, so that states in which
-/// these fibres hardly take part do not count.
+/// along the mean both ways, across it, out of the plane, and at 45 degrees with the mean compressed; and in three
+/// oblique frames. S = 2 sum rho f' N x N with f of docs/theory.md (1.4), where k1 cancels; S_ref is a fine quadrature
+/// of the density; S_iso is that of isotropic fibres with k2 = 0, about 0.2 k1, so that states in which these fibres
+/// hardly take part do not decide.
 RuleChoice measured_rule(DirectionSet set, std::string name, const Density& d, double k2, bool tension_only);
 
 /// The product rule of fewest directions whose error is at most `tolerance`, or the one of least error when none is.
