@@ -21,17 +21,18 @@ const Vec3<double> e1{{1.0, 0.0, 0.0}}, e3{{0.0, 0.0, 1.0}};
 
 std::vector<Density> densities() {
   std::vector<Density> all;
-  for (const double b : {0.0, 1e-6, 3.0, 30.0, 300.0}) {
+  for (const double b : {0.0, 3.0, 300.0}) {
     all.push_back(VonMises{b, {{0.48, 0.6, 0.64}}});
-    for (const double a : {0.0, 2.0, 100.0}) all.push_back(BivariateVonMises{a, b, 0.4});
+    all.push_back(BivariateVonMises{2.0, b, 0.4});
   }
+  all.push_back(BivariateVonMises{10.0, 0.0, 0.4});  // narrow about the pole
   return all;
 }
 
 TEST(FibreDirections, WeightsAreSharesOfUnitVectors) {
   for (const Density& d : densities()) {
     std::vector<DirectionSet> sets;
-    for (const int count : {4, 16, 64, 256, 1024}) {
+    for (const int count : {4, 64, 256}) {
       sets.push_back(octahedral(d, count));
       EXPECT_EQ(static_cast<int>(sets.back().weights.size()), count);
     }
