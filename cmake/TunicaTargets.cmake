@@ -34,21 +34,25 @@ if(NOT TUNICA_PURE)
   pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 endif()
 
+# <name>_<isa>.cpp holds hot loops for one instruction set, chosen at run time (assembly/isa.hpp).
+function(tunica_instruction_sets)
+  foreach(source ${ARGN})
+    if(source MATCHES "_avx2\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    elseif(source MATCHES "_avx512\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
+        "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-mprefer-vector-width=512;-Wno-uninitialized;-Wno-maybe-uninitialized")  # g++ 12 warns of its own header
+    endif()
+  endforeach()
+endfunction()
+
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
 # LINK names exactly what the include table in ARCHITECTURE.md allows.
 function(tunica_folder name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   if(sources)
-    # <name>_<isa>.cpp holds hot loops for one instruction set, chosen at run time (assembly/isa.hpp).
-    foreach(source ${sources})
-      if(source MATCHES "_avx2\\.cpp$")
-        set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
-      elseif(source MATCHES "_avx512\\.cpp$")
-        set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
-          "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-mprefer-vector-width=512;-Wno-uninitialized;-Wno-maybe-uninitialized")  # g++ 12 warns of its own header
-      endif()
-    endforeach()
+    tunica_instruction_sets(${sources})
     add_library(tunica_${name} STATIC ${sources})
     target_link_libraries(tunica_${name} PUBLIC tunica_flags ${ARG_LINK})
   else()

@@ -10,6 +10,7 @@
 
 #include "tunica/assembly/linear_solver.hpp"
 #include "tunica/coupling/element_loops.hpp"
+#include "tunica/coupling/wall_model.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/petsc.hpp"
 
@@ -23,7 +24,16 @@ struct Setting {
   assembly::BlockPattern pattern;
   assembly::BlockMatrix matrix;
   std::vector<double> reference, position, velocity_pressure, acceleration, mesh_velocity, displacement, residual;
-  assembly::ElementBatches lumen, wall, wall_split;
+  assembly::ElementBatches lumen;
+  coupling::WallModel wall_model;
+  coupling::WallModel::Group wall, wall_split;
+
+  static wall::Parameters wall_parameters() {
+    wall::Parameters parameters;
+    parameters.density = 1200;
+    parameters.material = wall::NeoHookeParameters{{.shear_modulus = 1e5, .bulk_modulus = 1e7}};
+    return parameters;
+  }
 
   Setting()
       : mesh(mesh::distribute(mesh::tube({.radius = 0.01,
@@ -35,7 +45,8 @@ struct Setting {
                                           .cells_through_wall = 3}),
                               MPI_COMM_WORLD)),
         pattern(assembly::make_pattern(mesh)),
-        matrix(pattern) {
+        matrix(pattern),
+        wall_model(mesh, wall_parameters()) {
     const std::size_t n = 4 * static_cast<std::size_t>(mesh.nodes());
     for (auto* field : {&reference, &velocity_pressure, &acceleration, &mesh_velocity, &displacement, &residual})
       field->assign(n, 0.0);
@@ -47,13 +58,13 @@ struct Setting {
         displacement[k] = 1e-3 * mesh.points[i][(c + 1) % 3];
       }
     position = reference;
-    for (const auto& region : mesh.regions) {
-      const int w = static_cast<int>(isa);
-      if (region.kind == mesh::RegionKind::lumen) lumen = make_batches(mesh, region, pattern, w, false);
-      if (region.kind == mesh::RegionKind::wall) {
-        wall = make_batches(mesh, region, pattern, w, false);
-        wall_split = make_batches(mesh, region, pattern, w, true);
-      }
+    const int w = static_cast<int>(isa);
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+      if (mesh.regions[r].kind == mesh::RegionKind::lumen)
+        lumen = make_batches(mesh, mesh.regions[r], pattern, w, false);
+      else
+        for (auto& group : wall_model.groups(mesh, r, pattern, w))
+          (group.batches.split ? wall_split : wall) = std::move(group);
     }
   }
 
@@ -66,10 +77,10 @@ struct Setting {
     coupling::element_loops(isa).fluid(coupling::BatchView(lumen), fields(), parameters, {1e-4, 1e4, 0.67},
                                        {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
   }
-  void run_wall(const assembly::ElementBatches& batches, bool tangent, bool mixed) {
-    const wall::Law law = wall::NeoHooke{.shear_modulus = 1e5};
-    const wall::Body body{.density = 1200, .volumetric = {.bulk_modulus = 1e7}};
-    coupling::element_loops(isa).wall(coupling::BatchView(batches), fields(), law, mixed, body, {1e4, 1e-4, 1e4},
+  void run_wall(const coupling::WallModel::Group& group, bool tangent, bool mixed) {
+    auto settings = wall_model.element_settings();
+    settings.mixed = mixed;
+    coupling::element_loops(isa).wall(group.view(), fields(), settings, {1e4, 1e-4, 1e4},
                                       {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
   }
   void assemble() {
@@ -110,19 +121,19 @@ void fluid_residual(benchmark::State& state) {
 }
 void wall_mixed_tangent(benchmark::State& state) {
   for (auto _ : state) setting().run_wall(setting().wall, true, true);
-  per_element(state, setting().wall.elements);
+  per_element(state, setting().wall.batches.elements);
 }
 void wall_mixed_tangent_at_interface(benchmark::State& state) {
   for (auto _ : state) setting().run_wall(setting().wall_split, true, true);
-  per_element(state, setting().wall_split.elements);
+  per_element(state, setting().wall_split.batches.elements);
 }
 void wall_displacement_tangent(benchmark::State& state) {
   for (auto _ : state) setting().run_wall(setting().wall, true, false);
-  per_element(state, setting().wall.elements);
+  per_element(state, setting().wall.batches.elements);
 }
 void wall_mixed_residual(benchmark::State& state) {
   for (auto _ : state) setting().run_wall(setting().wall, false, true);
-  per_element(state, setting().wall.elements);
+  per_element(state, setting().wall.batches.elements);
 }
 
 // STREAM triad on arrays far larger than the caches (McCalpin 1995).
@@ -183,7 +194,8 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     std::printf("instruction set %s, %d nodes, %d lumen and %d wall elements (%d of them along the interface)\n",
                 tunica::assembly::name(setting().isa), setting().mesh.nodes(), setting().lumen.elements,
-                setting().wall.elements + setting().wall_split.elements, setting().wall_split.elements);
+                setting().wall.batches.elements + setting().wall_split.batches.elements,
+                setting().wall_split.batches.elements);
     benchmark::RunSpecifiedBenchmarks();
   }
   MPI_Finalize();

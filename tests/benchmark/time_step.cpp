@@ -67,7 +67,7 @@ Setting make_setting(const std::string& name, bool root) {
   s.input.wall = wall::Parameters{};
   s.input.wall->density = 1000;
   s.input.wall->volumetric_energy = wall::VolumetricEnergy::miehe;
-  wall::NeoHooke::Parameters law;
+  wall::NeoHookeParameters law;
   law.elastic.young_modulus = 1e6;
   law.elastic.poisson_ratio = 0.3;
   s.input.wall->material = law;

@@ -12,13 +12,25 @@ bool is_split(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 
 
 }  // namespace
 
+std::vector<std::int32_t> elements_beside_hosts(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+                                                bool split) {
+  std::vector<std::int32_t> result;
+  for (std::size_t e = 0; e < region.elements.size(); ++e)
+    if (is_split(mesh, region.elements[e]) == split) result.push_back(static_cast<std::int32_t>(e));
+  return result;
+}
+
 ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region, const BlockPattern& pattern,
                             int width, bool split) {
+  return make_batches(mesh, region, elements_beside_hosts(mesh, region, split), pattern, width, split);
+}
+
+ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+                            std::vector<std::int32_t> elements, const BlockPattern& pattern, int width, bool split) {
   ElementBatches result;
   result.width = width;
   result.split = split;
-  for (std::size_t e = 0; e < region.elements.size(); ++e)
-    if (is_split(mesh, region.elements[e]) == split) result.elements_of_region.push_back(static_cast<std::int32_t>(e));
+  result.elements_of_region = std::move(elements);
   result.elements = static_cast<std::int32_t>(result.elements_of_region.size());
 
   const std::size_t batches = result.batches(), kinds = split ? 4 : 1, w = static_cast<std::size_t>(width);

@@ -32,7 +32,15 @@ struct ElementBatches {
   }
 };
 
-/// Batches of the elements of `region` that are (`split`) or are not next to a host, in the order of the region.
+/// Positions in Region::elements of those that are (`split`) or are not next to a host, in the order of the region.
+std::vector<std::int32_t> elements_beside_hosts(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+                                                bool split);
+
+/// Batches of some elements of `region`, all of which are (`split`) or are not next to a host.
+ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+                            std::vector<std::int32_t> elements, const BlockPattern& pattern, int width, bool split);
+
+/// Batches of all elements of `region` that are (`split`) or are not next to a host.
 ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region, const BlockPattern& pattern,
                             int width, bool split);
 

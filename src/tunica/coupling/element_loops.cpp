@@ -2,15 +2,22 @@
 
 namespace tunica::coupling {
 
-extern template ElementLoops make_element_loops<2>();
-extern template ElementLoops make_element_loops<4>();
-extern template ElementLoops make_element_loops<8>();
+extern template FluidLoop fluid_loop<2>();
+extern template FluidLoop fluid_loop<4>();
+extern template FluidLoop fluid_loop<8>();
+extern template WallLoop wall_loop<2>();
+extern template WallLoop wall_loop<4>();
+extern template WallLoop wall_loop<8>();
 
-const ElementLoops& element_loops(assembly::Isa isa) {
-  static const ElementLoops sse2 = make_element_loops<2>();
-  static const ElementLoops avx2 = make_element_loops<4>();
-  static const ElementLoops avx512 = make_element_loops<8>();
-  return isa == assembly::Isa::avx512 ? avx512 : isa == assembly::Isa::avx2 ? avx2 : sse2;
+ElementLoops element_loops(assembly::Isa isa) {
+  switch (isa) {
+    case assembly::Isa::avx512:
+      return {fluid_loop<8>(), wall_loop<8>()};
+    case assembly::Isa::avx2:
+      return {fluid_loop<4>(), wall_loop<4>()};
+    default:
+      return {fluid_loop<2>(), wall_loop<2>()};
+  }
 }
 
 }  // namespace tunica::coupling

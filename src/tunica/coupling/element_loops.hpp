@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "tunica/assembly/element_batches.hpp"
 #include "tunica/assembly/isa.hpp"
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/fluid/rbvms.hpp"
+#include "tunica/wall/blended_law.hpp"
 #include "tunica/wall/element.hpp"
-#include "tunica/wall/material.hpp"
 
 namespace tunica::coupling {
 
@@ -44,18 +45,39 @@ struct BatchView {
         slots(b.slots.data()) {}
 };
 
-struct ElementLoops {
-  void (*fluid)(const BatchView&, const FieldsView&, const fluid::Parameters&, const fluid::TimeCoefficients&,
-                const LoopTarget&);
-  /// `mixed`: the displacement-pressure element, else the displacement element.
-  void (*wall)(const BatchView&, const FieldsView&, const wall::Law&, bool mixed, const wall::Body&,
-               const wall::Coefficients&, const LoopTarget&);
+/// Wall elements that are made of the same laws.
+struct WallGroupView {
+  BatchView batches;
+  wall::LawKind kind;
+  std::span<const wall::Law* const> laws;
+  const double* weights = nullptr;  ///< of the laws [batch][law][lane], null for one law
+  const double* bodies = nullptr;   ///< density, K, shear modulus at rest [batch][3][lane]
+  const double* frames = nullptr;   ///< e1 and e2 of the fibre frame [batch][6][lane], null for global axes
 };
 
-/// Instantiated in element_loops_<isa>.cpp.
-template <int W>
-ElementLoops make_element_loops();
+/// What all elements of the wall have in common.
+struct WallElementSettings {
+  bool mixed;  ///< the displacement-pressure element, else the displacement element
+  wall::VolumetricEnergy volumetric_energy;
+  double stabilisation;
+};
 
-const ElementLoops& element_loops(assembly::Isa isa);
+using FluidLoop = void (*)(const BatchView&, const FieldsView&, const fluid::Parameters&,
+                           const fluid::TimeCoefficients&, const LoopTarget&);
+using WallLoop = void (*)(const WallGroupView&, const FieldsView&, const WallElementSettings&,
+                          const wall::Coefficients&, const LoopTarget&);
+
+struct ElementLoops {
+  FluidLoop fluid;
+  WallLoop wall;
+};
+
+/// Instantiated in fluid_loop_<isa>.cpp and wall_loop_<isa>.cpp.
+template <int W>
+FluidLoop fluid_loop();
+template <int W>
+WallLoop wall_loop();
+
+ElementLoops element_loops(assembly::Isa isa);
 
 }  // namespace tunica::coupling

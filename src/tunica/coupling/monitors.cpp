@@ -115,31 +115,27 @@ void Monitors::wall_elements(StepRecord& record) const {
   const auto& mesh = problem_.mesh();
   const FieldsView f = problem_.fields();
   double sums[3] = {};  // volume, kinetic energy, strain energy
-  for (const auto& region : mesh.regions) {
+  const WallModel& model = problem_.wall_model();
+  for (std::size_t i = 0; i < mesh.regions.size(); ++i) {
+    const auto& region = mesh.regions[i];
     if (region.kind != RegionKind::wall) continue;
-    const wall::Parameters& parameters = *problem_.input().wall;
-    const wall::Body body = parameters.body();
-    const wall::Law any_law = parameters.law();
-    const bool mixed = parameters.element == wall::Element::mixed;
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
       const auto& nodes = region.elements[e];
       Vec3<double> X[4], velocity[4], x[4];
       gather(f.reference_position, nodes, X);
       gather(f.velocity_pressure, nodes, velocity);
       wall::ElementState<double> s{
-          .reference = fe::gradients(X), .displacement = {}, .acceleration = {}, .pressure = {}};
+          .reference = model.reference(i, e, X), .displacement = {}, .acceleration = {}, .pressure = {}};
       gather(f.displacement, nodes, s.displacement);
       for (int a = 0; a < 4; ++a) {
         s.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
         x[a] = X[a] + s.displacement[a];
       }
+      const auto [law, body] = model.material(i, e);
       sums[0] += fe::gradients(x).volume;
-      sums[1] += wall::kinetic_energy(s.reference.volume, velocity, parameters.density);
-      sums[2] += std::visit(
-          [&](const auto& law) {
-            return mixed ? wall::mixed_strain_energy(s, law, body) : wall::displacement_strain_energy(s, law, body);
-          },
-          any_law);
+      sums[1] += wall::kinetic_energy(s.reference.volume, velocity, body.density);
+      sums[2] +=
+          model.mixed() ? wall::mixed_strain_energy(s, law, body) : wall::displacement_strain_energy(s, law, body);
     }
   }
   parallel::global_sum(mesh.comm, sums);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -64,14 +65,18 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
                      "give both a wall mesh and a `wall` section, or neither");
   if (wall && input.mesh_displacement)
     throw InputError("mesh_displacement", "the lumen mesh follows the wall", "prescribe it only without a wall");
-  if (wall) law_ = input.wall->law();
-  for (const auto& region : mesh.regions) {
-    const int width = static_cast<int>(isa_);
-    regions_.push_back({region.kind, make_batches(mesh, region, pattern_, width, false),
-                        make_batches(mesh, region, pattern_, width, true)});
-    if (region.kind == mesh::RegionKind::wall)
-      for (const auto& element : region.elements)
-        for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
+  if (wall) wall_.emplace(mesh, *input.wall);
+  const int width = static_cast<int>(isa_);
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    const auto& region = mesh.regions[r];
+    if (region.kind == mesh::RegionKind::lumen) {
+      lumen_batches_.push_back(make_batches(mesh, region, pattern_, width, false));
+      continue;
+    }
+    auto groups = wall_->groups(mesh, r, pattern_, width);
+    std::move(groups.begin(), groups.end(), std::back_inserter(wall_groups_));
+    for (const auto& element : region.elements)
+      for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
   }
   // A ghost may be a wall node although no wall element is seen here: its owner knows.
   std::vector<double> follows(follows_wall_.begin(), follows_wall_.end());
@@ -93,8 +98,8 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
 // is nothing larger that it could be compared with. So the norm of a pressure of 1e-12 shear moduli on its surface, ten
 // thousand times the precision, counts as nothing.
 std::vector<double> Problem::negligible_forces() const {
-  if (!law_) return {};
-  const double mu = std::visit([](const auto& law) { return law.shear_modulus_at_rest(); }, *law_);
+  if (!wall_) return {};
+  const double mu = wall_->shear_modulus_at_rest();
   std::vector<double> forces(at(mesh_.nodes()), 0.0);
   for (const auto& face : mesh_.faces) {
     if (mesh_.regions[face.region].kind != mesh::RegionKind::wall) continue;
@@ -192,30 +197,25 @@ int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& sc
   return iterations;
 }
 
-void Problem::add_elements(mesh::RegionKind kind, const Instant& instant, std::span<double> residual,
-                           float* blocks) const {
-  const ElementLoops& loops = element_loops(isa_);
-  const LoopTarget target{residual.data(), blocks};
-  for (const auto& region : regions_) {
-    if (region.kind != kind) continue;
-    for (const auto* batches : {&region.plain, &region.split}) {
-      if (batches->elements == 0) continue;
-      if (kind == mesh::RegionKind::lumen) {
-        const auto& s = *instant.scheme;
-        loops.fluid(BatchView(*batches), fields(), *input_.fluid,
-                    {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, target);
-      } else {
-        // The constraint rows are scaled so that their coupling to the velocity is that of the continuity equation.
-        const wall::Coefficients c = instant.scheme ? wall::Coefficients{instant.scheme->acceleration_per_unknown(),
-                                                                         instant.scheme->displacement_per_unknown(),
-                                                                         instant.scheme->velocity_per_unknown() /
-                                                                             instant.scheme->displacement_per_unknown()}
-                                                    : wall::Coefficients{};
-        loops.wall(BatchView(*batches), fields(), *law_, input_.wall->element == wall::Element::mixed,
-                   input_.wall->body(), c, target);
-      }
-    }
+void Problem::add_lumen(const Instant& instant, std::span<double> residual, float* blocks) const {
+  const ElementLoops loops = element_loops(isa_);
+  for (const auto& batches : lumen_batches_) {
+    const TimeScheme& s = *instant.scheme;
+    loops.fluid(BatchView(batches), fields(), *input_.fluid,
+                {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, {residual.data(), blocks});
   }
+}
+
+void Problem::add_wall(const Instant& instant, std::span<double> residual, float* blocks) const {
+  const ElementLoops loops = element_loops(isa_);
+  // The constraint rows are scaled so that their coupling to the velocity is that of the continuity equation.
+  const wall::Coefficients c =
+      instant.scheme
+          ? wall::Coefficients{instant.scheme->acceleration_per_unknown(), instant.scheme->displacement_per_unknown(),
+                               instant.scheme->velocity_per_unknown() / instant.scheme->displacement_per_unknown()}
+          : wall::Coefficients{};
+  for (const auto& group : wall_groups_)
+    loops.wall(group.view(), fields(), wall_->element_settings(), c, {residual.data(), blocks});
 }
 
 void Problem::assemble(const State& next, const Instant& instant, bool with_tangent) {
@@ -223,8 +223,8 @@ void Problem::assemble(const State& next, const Instant& instant, bool with_tang
   std::fill(residual_.begin(), residual_.end(), 0.0);
   if (with_tangent) matrix_.set_zero();
   float* blocks = with_tangent ? matrix_.blocks.data()->a : nullptr;
-  add_elements(mesh::RegionKind::lumen, instant, residual_, blocks);
-  add_elements(mesh::RegionKind::wall, instant, residual_, blocks);
+  add_lumen(instant, residual_, blocks);
+  add_wall(instant, residual_, blocks);
 
   const LoadCoefficients loads = instant.scheme ? LoadCoefficients{instant.scheme->velocity_per_unknown(),
                                                                    instant.scheme->displacement_per_unknown()}
@@ -437,8 +437,8 @@ Problem::WorstNode Problem::worst_node() const {
 
 Problem::PartialResiduals Problem::partial_residuals() const {
   PartialResiduals parts{std::vector<double>(residual_.size()), std::vector<double>(residual_.size())};
-  add_elements(mesh::RegionKind::lumen, last_instant_, parts.lumen, nullptr);
-  add_elements(mesh::RegionKind::wall, last_instant_, parts.wall, nullptr);
+  add_lumen(last_instant_, parts.lumen, nullptr);
+  add_wall(last_instant_, parts.wall, nullptr);
   return parts;
 }
 

@@ -13,7 +13,7 @@
 #include "tunica/coupling/mesh_motion.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/state.hpp"
-#include "tunica/wall/parameters.hpp"
+#include "tunica/coupling/wall_model.hpp"
 
 namespace tunica::coupling {
 
@@ -90,6 +90,8 @@ class Problem {
   /// Fields at t_{n+alpha_f} of the last evaluation.
   FieldsView fields() const;
   const Boundaries& boundaries() const { return boundaries_; }
+  /// Only with a wall.
+  const WallModel& wall_model() const { return wall_.value(); }
   const mesh::DistributedMesh& mesh() const { return mesh_; }
   const ProblemInput& input() const { return input_; }
   bool moving() const { return mesh_motion_.has_value() || input_.mesh_displacement; }
@@ -101,17 +103,13 @@ class Problem {
     double time = 0;                             ///< t_{n+alpha_f} [s]
     double load_factor = 1;
   };
-  struct Regional {
-    mesh::RegionKind kind;
-    assembly::ElementBatches plain, split;
-  };
-
   void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
   void follow_velocity(const State& old_state, State& next, const assembly::TimeScheme& scheme) const;
   void prescribe_mesh(State& state) const;
   int move_mesh(const State& old_state, State& next, const assembly::TimeScheme& scheme);
   void synchronise_twins(State& state) const;
-  void add_elements(mesh::RegionKind kind, const Instant& instant, std::span<double> residual, float* blocks) const;
+  void add_lumen(const Instant& instant, std::span<double> residual, float* blocks) const;
+  void add_wall(const Instant& instant, std::span<double> residual, float* blocks) const;
   void assemble(const State& next, const Instant& instant, bool with_tangent);
   StepReport newton(const State& old_state, State& next, const Instant& instant);
   void iterate(const State& old_state, State& next, const Instant& instant, StepReport& report);
@@ -134,8 +132,9 @@ class Problem {
   assembly::Isa isa_;
   assembly::BlockPattern pattern_;
   Boundaries boundaries_;
-  std::vector<Regional> regions_;
-  std::optional<wall::Law> law_;
+  std::vector<assembly::ElementBatches> lumen_batches_;
+  std::optional<WallModel> wall_;
+  std::vector<WallModel::Group> wall_groups_;
   std::vector<double> negligible_;  ///< forces whose norm is noise, [owned node][4]; empty without a wall
   std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
   assembly::BlockMatrix matrix_;

@@ -211,6 +211,15 @@ class Cutter {
       for (std::size_t e = 0; e < region.elements.size(); ++e)
         for (int a = 0; a < 4; ++a) region.elements[e][a] = local_[data_.tetrahedra[region.element_ids[e]][a]];
       used += region.elements.size();
+      for (std::size_t f = 0; f < data_.fields.size(); ++f) {
+        const ElementField& all = data_.fields[f];
+        auto& values = region.fields[f].values;
+        values.clear();
+        for (const auto id : region.element_ids) {
+          const auto first = all.values.begin() + static_cast<std::ptrdiff_t>(id) * all.components;
+          values.insert(values.end(), first, first + all.components);
+        }
+      }
     }
     assert(used == ids.size() && "the regions cover all elements");
   }
@@ -240,6 +249,8 @@ DistributedMesh broadcast_frame(const MeshData& data, MPI_Comm comm) {
   std::vector<RegionKind> kinds;
   std::vector<std::int32_t> face_regions;
   std::vector<std::int64_t> face_sizes;
+  std::vector<std::string> field_names;
+  std::vector<std::int32_t> field_components;
   std::array<std::int64_t, 2> totals{};
   if (parallel::rank(comm) == 0) {
     for (const auto& region : data.regions) {
@@ -251,6 +262,10 @@ DistributedMesh broadcast_frame(const MeshData& data, MPI_Comm comm) {
       face_regions.push_back(face.region);
       face_sizes.push_back(static_cast<std::int64_t>(face.triangles.size()));
     }
+    for (const auto& field : data.fields) {
+      field_names.push_back(field.name);
+      field_components.push_back(field.components);
+    }
     totals = {static_cast<std::int64_t>(data.points.size()), static_cast<std::int64_t>(data.tetrahedra.size())};
   }
   parallel::broadcast(comm, region_names);
@@ -258,13 +273,18 @@ DistributedMesh broadcast_frame(const MeshData& data, MPI_Comm comm) {
   parallel::broadcast(comm, face_names);
   parallel::broadcast(comm, face_regions);
   parallel::broadcast(comm, face_sizes);
+  parallel::broadcast(comm, field_names);
+  parallel::broadcast(comm, field_components);
   parallel::broadcast(comm, totals);
 
   DistributedMesh mesh;
   mesh.comm = comm;
   mesh.global_nodes = totals[0];
   mesh.global_elements = totals[1];
-  for (std::size_t r = 0; r < region_names.size(); ++r) mesh.regions.push_back({region_names[r], kinds[r], 0, {}, {}});
+  std::vector<ElementField> fields;
+  for (std::size_t f = 0; f < field_names.size(); ++f) fields.push_back({field_names[f], field_components[f], {}});
+  for (std::size_t r = 0; r < region_names.size(); ++r)
+    mesh.regions.push_back({region_names[r], kinds[r], 0, {}, {}, fields});
   for (std::size_t f = 0; f < face_names.size(); ++f)
     mesh.faces.push_back({face_names[f], face_regions[f], 0, face_sizes[f], {}});
   return mesh;
@@ -279,6 +299,7 @@ void send_part(MPI_Comm comm, int to, const DistributedMesh& mesh) {
   for (const auto& region : mesh.regions) {
     parallel::send(comm, to, region.elements);
     parallel::send(comm, to, region.element_ids);
+    for (const auto& field : region.fields) parallel::send(comm, to, field.values);
   }
   for (const auto& face : mesh.faces) parallel::send(comm, to, face.triangles);
 }
@@ -294,6 +315,7 @@ void receive_part(MPI_Comm comm, DistributedMesh& mesh) {
   for (auto& region : mesh.regions) {
     region.elements = parallel::receive<std::array<std::int32_t, 4>>(comm, 0);
     region.element_ids = parallel::receive<std::int64_t>(comm, 0);
+    for (auto& field : region.fields) field.values = parallel::receive<double>(comm, 0);
   }
   for (auto& face : mesh.faces) face.triangles = parallel::receive<std::array<std::int32_t, 3>>(comm, 0);
 }
@@ -332,12 +354,22 @@ void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {
   values = std::move(result);
 }
 
+void permute(ElementField& field, const std::vector<std::int32_t>& order) {
+  std::vector<double> result;
+  result.reserve(field.values.size());
+  for (const std::int32_t i : order)
+    for (int c = 0; c < field.components; ++c)
+      result.push_back(field.values[static_cast<std::size_t>(i) * field.components + c]);
+  field.values = std::move(result);
+}
+
 void sort_cells(DistributedMesh& mesh) {
   for (auto& region : mesh.regions) {
     const auto [order, owned] = cell_order(region.elements, mesh);
     region.owned_elements = owned;
     permute(region.elements, order);
     permute(region.element_ids, order);
+    for (auto& field : region.fields) permute(field, order);
   }
   for (auto& face : mesh.faces) {
     const auto [order, owned] = cell_order(face.triangles, mesh);
@@ -347,6 +379,16 @@ void sort_cells(DistributedMesh& mesh) {
 }
 
 }  // namespace
+
+const ElementField& Region::field(const std::string& wanted) const {
+  std::string names;
+  for (const auto& f : fields) {
+    if (f.name == wanted) return f;
+    names += (names.empty() ? "" : ", ") + f.name;
+  }
+  throw InputError("region " + name, fmt::format("its mesh brings no element values called '{}'", wanted),
+                   names.empty() ? "give a mesh file with cell arrays" : "use one of: " + names);
+}
 
 const Face& DistributedMesh::face(const std::string& name) const {
   std::string names;

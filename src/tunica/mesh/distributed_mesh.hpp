@@ -22,6 +22,9 @@ struct Region {
   std::int32_t owned_elements = 0;
   std::vector<std::array<std::int32_t, 4>> elements;  ///< local nodes
   std::vector<std::int64_t> element_ids;              ///< position in MeshData::tetrahedra
+  std::vector<ElementField> fields;                   ///< of these elements
+
+  const ElementField& field(const std::string& name) const;  ///< throws InputError listing the names that exist
 };
 
 /// Triangles of a named face that touch an owned node; owned ones first, as in Region.

@@ -51,7 +51,9 @@ void fill_regions(const MshFile& file, const GmshOptions& options, const std::st
   for (const auto& r : options.regions) declared.push_back(r.physical_volume);
   std::map<int, std::size_t> region_of;  // by elementary volume
   std::vector<std::vector<std::array<Index, 4>>> grouped(declared.size());
-  for (const auto& [nodes, entity] : file.tetrahedra) {
+  std::vector<std::vector<std::size_t>> members(declared.size());  // positions in the file
+  for (std::size_t e = 0; e < file.tetrahedra.size(); ++e) {
+    const auto& [nodes, entity] = file.tetrahedra[e];
     auto found = region_of.find(entity);
     if (found == region_of.end()) {
       const auto name = physical_name(file, 3, entity, where);
@@ -63,6 +65,7 @@ void fill_regions(const MshFile& file, const GmshOptions& options, const std::st
       found = region_of.emplace(entity, r).first;
     }
     grouped[found->second].push_back(nodes);
+    members[found->second].push_back(e);
   }
   for (std::size_t r = 0; r < grouped.size(); ++r) {
     if (grouped[r].empty())
@@ -71,6 +74,13 @@ void fill_regions(const MshFile& file, const GmshOptions& options, const std::st
     const Index first = std::ssize(data.tetrahedra);
     data.tetrahedra.insert(data.tetrahedra.end(), grouped[r].begin(), grouped[r].end());
     data.regions.push_back({declared[r], options.regions[r].kind, first, std::ssize(data.tetrahedra)});
+  }
+  for (const auto& field : file.fields) {
+    auto& sorted = data.fields.emplace_back(ElementField{field.name, field.components, {}});
+    for (const auto& region : members)
+      for (const auto e : region)
+        for (int c = 0; c < field.components; ++c)
+          sorted.values.push_back(field.values[e * static_cast<std::size_t>(field.components) + c]);
   }
 }
 
@@ -231,7 +241,7 @@ void fill_faces(const MshFile& file, const std::vector<Index>& position, const s
 LoadedMesh read_gmsh(const std::filesystem::path& path, const GmshOptions& options) {
   const auto where = path.string();
   check_options(options, where);
-  const auto file = read_msh(path);
+  const auto file = read_msh(path, options.fields);
   LoadedMesh mesh;
   auto& data = mesh.data;
   fill_regions(file, options, where, data);

@@ -15,8 +15,9 @@ struct GmshRegion {
 };
 
 struct GmshOptions {
-  double metres_per_unit = 0;       ///< length unit of the file, > 0
-  std::vector<GmshRegion> regions;  ///< every physical volume of the file; at most one lumen
+  double metres_per_unit = 0;         ///< length unit of the file, > 0
+  std::vector<GmshRegion> regions;    ///< every physical volume of the file; at most one lumen
+  std::vector<std::string> fields{};  ///< $ElementData that are kept with the tetrahedra, NaN where there are none
 };
 
 /// Reads a MSH 4.1 file whose volumes and boundary surfaces all belong to named physical groups.
@@ -31,7 +32,8 @@ struct GmshOptions {
 /// report says.
 ///
 /// Throws InputError for what read_msh refuses, volumes without or with an undeclared physical name, inverted
-/// elements, boundary triangles in no or in two physical surfaces, and surfaces that lie inside a region.
+/// elements, boundary triangles in no or in two physical surfaces, surfaces that lie inside a region, and element data
+/// that are absent.
 LoadedMesh read_gmsh(const std::filesystem::path& path, const GmshOptions& options);
 
 }  // namespace tunica::mesh

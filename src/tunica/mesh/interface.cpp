@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "tunica/base/error.hpp"
@@ -16,6 +17,24 @@ namespace {
 
 using Index = std::int64_t;
 using Triangle = std::array<Index, 3>;
+
+/// Appends the values of `count` elements that follow the first `present`; NaN where one side has no such values.
+void append_fields(std::vector<ElementField>& all, const std::vector<ElementField>& added, Index present, Index count) {
+  const auto find = [](auto& fields, const std::string& name) {
+    return std::find_if(fields.begin(), fields.end(), [&](const ElementField& f) { return f.name == name; });
+  };
+  for (const auto& field : added)
+    if (find(all, field.name) == all.end())
+      all.push_back({field.name, field.components,
+                     std::vector<double>(static_cast<std::size_t>(present * field.components), std::nan(""))});
+  for (auto& field : all) {
+    const auto found = find(added, field.name);
+    if (found == added.end())
+      field.values.resize(static_cast<std::size_t>((present + count) * field.components), std::nan(""));
+    else
+      field.values.insert(field.values.end(), found->values.begin(), found->values.end());
+  }
+}
 
 LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
   LoadedMesh all;
@@ -30,6 +49,7 @@ LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
       r.end_element += element;
       all.data.regions.push_back(std::move(r));
     }
+    append_fields(all.data.fields, part.data.fields, element, std::ssize(part.data.tetrahedra));
     for (auto f : part.data.faces) {
       f.region += region;
       for (auto& t : f.triangles) t = {t[0] + node, t[1] + node, t[2] + node};

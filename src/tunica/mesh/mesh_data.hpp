@@ -22,9 +22,16 @@ struct RegionData {
   std::int64_t first_element, end_element;  ///< range in MeshData::tetrahedra
 };
 
+/// Values that come with the elements, such as fibre directions; NaN where a file of several has none.
+struct ElementField {
+  std::string name;
+  int components;
+  std::vector<double> values;  ///< [element][component]
+};
+
 struct FaceData {
   std::string name;
-  std::int32_t region;                                 ///< index of the region it bounds
+  std::int32_t region;                                 ///< index of a region it bounds; other regions are of its kind
   std::vector<std::array<std::int64_t, 3>> triangles;  ///< nodes, seen from outside the region counter-clockwise
 };
 
@@ -34,6 +41,7 @@ struct MeshData {
   std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< positive orientation
   std::vector<RegionData> regions;                      ///< at most one lumen, any number of wall regions
   std::vector<FaceData> faces;
+  std::vector<ElementField> fields;                          ///< of all tetrahedra
   std::vector<std::pair<std::int64_t, std::int64_t>> twins;  ///< (wall node, lumen node hosting its motion)
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <unordered_map>
@@ -171,7 +172,9 @@ int nodes_of_skipped(const Source& in, int dimension, int type) {
   return found->second;
 }
 
-void read_elements(Source& in, MshFile& file, const Positions& positions) {
+/// Returns the position of each tetrahedron by its tag, for element data.
+Positions read_elements(Source& in, MshFile& file, const Positions& positions) {
+  Positions tetrahedra;
   constexpr int triangle = 2, tetrahedron = 4;
   const auto node = [&] {
     const auto found = positions.find(in.size());
@@ -184,27 +187,67 @@ void read_elements(Source& in, MshFile& file, const Positions& positions) {
     const int dimension = in.integer(), entity = in.integer(), type = in.integer();
     const auto n = in.count();
     for (std::int64_t i = 0; i < n; ++i) {
-      in.size();  // tag
+      const auto tag = in.size();
       if (type == triangle) {
         file.triangles.push_back({{node(), node(), node()}, entity});
       } else if (type == tetrahedron) {
+        tetrahedra.emplace(tag, std::ssize(file.tetrahedra));
         file.tetrahedra.push_back({{node(), node(), node(), node()}, entity});
       } else {
         for (int k = nodes_of_skipped(in, dimension, type); k > 0; --k) in.size();
       }
     }
   }
+  return tetrahedra;
+}
+
+void read_element_data(Source& in, MshFile& file, const Positions& tetrahedra, const std::vector<std::string>& wanted) {
+  std::string name;
+  for (int n = in.text<int>(), i = 0; i < n; ++i) {
+    const auto tag = in.quoted();
+    if (i == 0) name = tag;
+  }
+  for (int n = in.text<int>(); n > 0; --n) in.text<double>();  // the first is the time
+  int components = 0;
+  std::int64_t count = 0;
+  for (int n = in.text<int>(), i = 0; i < n; ++i) {  // time step, components, elements, partition
+    const auto tag = in.text<std::int64_t>();
+    if (i == 1) components = static_cast<int>(tag);
+    if (i == 2) count = tag;
+  }
+  if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) return;
+  if (components < 1 || components > 9 || count < 0) in.damaged("its integer tags are out of range");
+  in.end_of_line();
+  const auto known =
+      std::find_if(file.fields.begin(), file.fields.end(), [&](const auto& f) { return f.name == name; });
+  if (known != file.fields.end()) in.refuse("holds element data " + name + " twice", "write one time step only");
+  ElementField field{name, components, {}};
+  field.values.assign(file.tetrahedra.size() * static_cast<std::size_t>(components), std::nan(""));
+  for (std::int64_t k = 0; k < count; ++k) {
+    const auto found = tetrahedra.find(in.integer());
+    for (int c = 0; c < components; ++c) {
+      const double value = in.real();
+      if (found != tetrahedra.end()) field.values[static_cast<std::size_t>(found->second * components + c)] = value;
+    }
+  }
+  file.fields.push_back(std::move(field));
+}
+
+void require_fields(const Source& in, const MshFile& file, const std::vector<std::string>& wanted) {
+  for (const auto& name : wanted)
+    if (std::none_of(file.fields.begin(), file.fields.end(), [&](const auto& f) { return f.name == name; }))
+      in.refuse("there is no $ElementData called " + name, "write it to the file, or correct the name");
 }
 
 }  // namespace
 
-MshFile read_msh(const std::filesystem::path& path) {
+MshFile read_msh(const std::filesystem::path& path, const std::vector<std::string>& fields) {
   std::ifstream stream(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(path) || !stream)
     throw InputError(path.string(), "there is no such file, or it cannot be read", "give the path of a Gmsh mesh");
   Source in({std::istreambuf_iterator<char>(stream), {}}, path.string());
   MshFile file;
-  Positions positions;
+  Positions positions, tetrahedra;
   if (in.word() != "$MeshFormat") in.refuse("does not begin with $MeshFormat", "give a Gmsh mesh (.msh)");
   read_format(in);
   in.skip_to_end_of("MeshFormat");
@@ -219,9 +262,11 @@ MshFile read_msh(const std::filesystem::path& path) {
     if (section == "PartitionedEntities")
       in.refuse("the mesh is partitioned", "save it unpartitioned, tunica partitions it itself");
     if (section == "Nodes") positions = read_nodes(in, file);
-    if (section == "Elements") read_elements(in, file, positions);
+    if (section == "Elements") tetrahedra = read_elements(in, file, positions);
+    if (section == "ElementData" && !fields.empty()) read_element_data(in, file, tetrahedra, fields);
     in.skip_to_end_of(section);
   }
+  require_fields(in, file, fields);
   return file;
 }
 

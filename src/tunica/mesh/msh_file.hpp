@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tunica/base/tensor.hpp"
+#include "tunica/mesh/mesh_data.hpp"
 
 namespace tunica::mesh {
 
@@ -26,11 +27,13 @@ struct MshFile {
   std::vector<Vec3<double>> points;               ///< in the unit of the file
   std::vector<Element<3>> triangles;
   std::vector<Element<4>> tetrahedra;
+  std::vector<ElementField> fields;  ///< the $ElementData asked for, on `tetrahedra`; NaN where there are none
 };
 
 /// Reads an ASCII or binary file of either byte order, section by section as the Gmsh reference manual describes the
 /// format ("MSH file format"). Points and lines are skipped. Throws InputError when the file is missing, of another
-/// version, damaged, partitioned, or has surface or volume elements that are not linear triangles or tetrahedra.
-MshFile read_msh(const std::filesystem::path& path);
+/// version, damaged, partitioned, or has surface or volume elements that are not linear triangles or tetrahedra, or
+/// when one of `fields` is absent.
+MshFile read_msh(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
 
 }  // namespace tunica::mesh

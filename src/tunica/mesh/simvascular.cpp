@@ -92,6 +92,63 @@ void refuse_unused_nodes(const MeshData& data, const std::string& where) {
         "remove these nodes from the mesh");
 }
 
+void refuse_not_finite(const ElementField& field, const std::string& where) {
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    if (!std::isfinite(field.values[i]))
+      throw InputError(where,
+                       fmt::format("cell array {} is not finite in element {}", field.name,
+                                   i / static_cast<std::size_t>(field.components) + 1),
+                       "write the array again");
+}
+
+/// Sorts the elements by region, in the order of their numbers, and everything else of `file` that goes with them.
+void sort_by_region(MeshData& data, VtkCells& file, const NamedRegions& regions, RegionKind kind,
+                    const std::string& where) {
+  const auto found = std::find_if(file.fields.begin(), file.fields.end(),
+                                  [&](const ElementField& f) { return f.name == regions.array; });
+  const std::vector<double> numbers = found->values;
+  if (found->components != 1)
+    throw InputError(where, fmt::format("cell array {} has {} components", regions.array, found->components),
+                     "use an array of one integer per cell");
+  std::map<int, std::vector<std::size_t>> members;
+  for (std::size_t e = 0; e < numbers.size(); ++e) {
+    if (numbers[e] != std::round(numbers[e]))
+      throw InputError(where, fmt::format("{} = {} in element {}, no integer", regions.array, numbers[e], e + 1),
+                       "use an array of region numbers");
+    members[static_cast<int>(std::lround(numbers[e]))].push_back(e);
+  }
+  for (const auto& [number, list] : members)
+    if (!regions.names.contains(number))
+      throw InputError(where,
+                       fmt::format("{} elements have {} = {}, which has no name", list.size(), regions.array, number),
+                       "name every number that occurs");
+  std::vector<std::size_t> order;
+  data.regions.clear();
+  for (const auto& [number, name] : regions.names) {
+    if (!members.contains(number))
+      throw InputError(where, fmt::format("no element has {} = {}, called {}", regions.array, number, name),
+                       "correct the number, or leave it out");
+    const auto first = std::ssize(order);
+    order.insert(order.end(), members[number].begin(), members[number].end());
+    data.regions.push_back({name, kind, first, std::ssize(order)});
+  }
+  const auto tetrahedra = data.tetrahedra;
+  const auto ids = file.global_element_ids;
+  for (std::size_t e = 0; e < order.size(); ++e) {
+    data.tetrahedra[e] = tetrahedra[order[e]];
+    if (!ids.empty()) file.global_element_ids[e] = ids[order[e]];
+  }
+  if (ids.empty())  // then the position in the file is the ID
+    for (const auto e : order) file.global_element_ids.push_back(static_cast<Index>(e) + 1);
+  for (auto& field : file.fields) {
+    const auto values = field.values;
+    const auto n = static_cast<std::size_t>(field.components);
+    for (std::size_t e = 0; e < order.size(); ++e)
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(order[e] * n), n,
+                  field.values.begin() + static_cast<std::ptrdiff_t>(e * n));
+  }
+}
+
 /// Position of each global ID; empty when the file has no IDs, and then ID - 1 is the position.
 class IdMap {
  public:
@@ -218,19 +275,29 @@ LoadedMesh read_simvascular(const fs::path& folder, RegionKind kind, const std::
   const auto surfaces = surface_files(folder);
   const auto volume_path = folder / "mesh-complete.mesh.vtu";
   const auto where = volume_path.string();
-  const auto file = read_vtk_volume(volume_path);
+  auto arrays = options.fields;
+  if (options.regions) arrays.push_back(options.regions->array);
+  auto file = read_vtk_volume(volume_path, arrays);
 
   LoadedMesh mesh;
   auto& data = mesh.data;
   data.points = scaled_points(file, options.metres_per_unit, where);
   data.tetrahedra = cells_of_type<4>(file, vtk_tetrahedron, "tetrahedra", options.metres_per_unit, where);
   data.regions = {{name, kind, 0, std::ssize(data.tetrahedra)}};
+  for (const auto& field : file.fields) refuse_not_finite(field, where);
   refuse_unused_nodes(data, where);
   mesh.report.push_back(fmt::format("{}: {} nodes, {} tetrahedra, {} faces; GlobalNodeID {}, GlobalElementID {}", where,
                                     data.points.size(), data.tetrahedra.size(), surfaces.size(),
                                     file.global_node_ids.empty() ? "absent" : "present",
                                     file.global_element_ids.empty() ? "absent" : "present"));
   if (auto turned = orient_elements(data, where); !turned.empty()) mesh.report.push_back(std::move(turned));
+  if (options.regions) {
+    sort_by_region(data, file, *options.regions, kind, where);
+    file.fields.pop_back();
+    for (const auto& r : data.regions)
+      mesh.report.push_back(fmt::format("region {}: {} tetrahedra", r.name, r.end_element - r.first_element));
+  }
+  data.fields = file.fields;
 
   const Boundary boundary(data.tetrahedra, std::ssize(data.points), where);
   const auto volume = make_volume(data, boundary, file);

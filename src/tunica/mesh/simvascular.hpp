@@ -2,15 +2,26 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "tunica/mesh/loaded_mesh.hpp"
 
 namespace tunica::mesh {
 
+/// Regions within one volume, told apart by an integer cell array.
+struct NamedRegions {
+  std::string array;                 ///< such as ModelRegionID
+  std::map<int, std::string> names;  ///< every number that occurs, and its region
+};
+
 struct SimVascularOptions {
   double metres_per_unit = 0;  ///< length unit of the files, for example 0.01 for cm; > 0
   double tolerance = 1e-3;     ///< for the coordinates of face nodes, as a share of the shortest edge at the node
+  std::optional<NamedRegions> regions{};  ///< else the volume is one region
+  std::vector<std::string> fields{};      ///< cell arrays that are kept with the elements
 };
 
 /// Reads a `mesh-complete` folder: `mesh-complete.mesh.vtu` and one named face for each `mesh-surfaces/*.vtp` (other
@@ -20,10 +31,11 @@ struct SimVascularOptions {
 /// of the volume, or as 1-based positions when it has none), otherwise all from the coordinates. GlobalElementID is
 /// compared with the elements and reported, nothing depends on it. Triangles are turned outward.
 ///
-/// Returns one region called `name` whose faces are called after their files. Throws InputError for missing or
+/// Returns one region called `name`, or the named ones, which share their nodes; a face that bounds several of them is
+/// one face. Faces are called after their files. Throws InputError for missing or
 /// unreadable files, cells that are not linear tetrahedra, coordinates that are not finite, nodes without element,
-/// inverted elements, face nodes that the volume does not have, and a boundary that the faces do not cover exactly
-/// once.
+/// inverted elements, face nodes that the volume does not have, a boundary that the faces do not cover exactly once,
+/// cell arrays that are absent or not finite, region numbers without a name and names without an element.
 LoadedMesh read_simvascular(const std::filesystem::path& folder, RegionKind kind, const std::string& name,
                             const SimVascularOptions& options);
 

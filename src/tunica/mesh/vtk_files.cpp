@@ -65,6 +65,21 @@ std::vector<std::int64_t> integers(vtkDataSetAttributes* attributes, const char*
   return values;
 }
 
+ElementField cell_field(vtkDataSetAttributes* attributes, const std::string& name, const std::filesystem::path& path) {
+  vtkDataArray* array = attributes->GetArray(name.c_str());
+  if (!array) {
+    std::string names;
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+      if (const char* other = attributes->GetArrayName(i)) names += (names.empty() ? "" : ", ") + std::string(other);
+    throw InputError(path.string(), "there is no numeric cell array called " + name,
+                     names.empty() ? "write one to the file, it has no cell arrays" : "use one of: " + names);
+  }
+  ElementField field{name, array->GetNumberOfComponents(), {}};
+  for (vtkIdType c = 0; c < array->GetNumberOfTuples(); ++c)
+    for (int i = 0; i < field.components; ++i) field.values.push_back(array->GetComponent(c, i));
+  return field;
+}
+
 template <class Grid, class CellTypes>
 VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, const std::filesystem::path& path) {
   VtkCells result;
@@ -91,12 +106,14 @@ VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, 
 
 }  // namespace
 
-VtkCells read_vtk_volume(const std::filesystem::path& path) {
+VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   update(reader.Get(), path);
   vtkUnstructuredGrid* grid = reader->GetOutput();
-  return arrays(
+  VtkCells cells = arrays(
       grid, grid->GetCells(), [&](std::int64_t c, vtkIdType) { return grid->GetCellType(c); }, path);
+  for (const auto& name : fields) cells.fields.push_back(cell_field(grid->GetCellData(), name, path));
+  return cells;
 }
 
 VtkCells read_vtk_surface(const std::filesystem::path& path) {

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tunica/base/tensor.hpp"
+#include "tunica/mesh/mesh_data.hpp"
 
 namespace tunica::mesh {
 
@@ -16,11 +18,12 @@ struct VtkCells {
   std::vector<std::int64_t> offsets;       ///< where each cell starts in `connectivity`, one past the end for the last
   std::vector<std::int64_t> connectivity;  ///< 0-based points
   std::vector<std::int64_t> global_node_ids, global_element_ids;  ///< as in the file; empty when it has none
+  std::vector<ElementField> fields;                               ///< the cell arrays that were asked for
 };
 
 /// Reads a .vtu or .vtp file of any encoding. Throws InputError when it is missing, not of that kind, damaged, or its
-/// cells name points that do not exist.
-VtkCells read_vtk_volume(const std::filesystem::path& path);
+/// cells name points that do not exist. `fields`: cell arrays to be read, too; one that is absent is an error.
+VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
 VtkCells read_vtk_surface(const std::filesystem::path& path);
 
 }  // namespace tunica::mesh

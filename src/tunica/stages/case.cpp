@@ -44,6 +44,34 @@ Schema<RegionMesh> region_mesh_schema() {
       .folder("simvascular", &RegionMesh::simvascular, "`mesh-complete` folder as exported by SimVascular");
 }
 
+Schema<int> region_number_schema() {
+  return Schema<int>("region_number", "Number of a region in the cell array.")
+      .integer(
+          "number", [](int& number) -> int& { return number; }, config::range(-1000000, 1000000), "Number")
+      .shorthand("number");
+}
+
+Schema<WallMesh> wall_mesh_schema() {
+  return Schema<WallMesh>("wall_mesh", "Mesh of the wall, one region called wall or several.")
+      .folder("simvascular", &WallMesh::simvascular, "`mesh-complete` folder as exported by SimVascular")
+      .text("region_array", &WallMesh::region_array,
+            "Cell array of integers that tells regions apart, such as ModelRegionID")
+      .map("regions", &WallMesh::regions, region_number_schema(),
+           "Every number of that array: `true_lumen_wall: 1`, `flap: 2`")
+      .by_default()
+      .check([](const WallMesh& m, Problems& problems) {
+        if (m.region_array.has_value() == m.regions.empty())
+          problems.add("regions",
+                       m.region_array ? "is empty, but region_array is given" : "is given without region_array",
+                       "give both, or neither for a wall of one region");
+        std::map<int, std::string> known;
+        for (const auto& [name, number] : m.regions)
+          if (const auto [other, is_new] = known.emplace(number, name); !is_new)
+            problems.add("regions." + name, fmt::format("is {}, as is {}", number, other->second),
+                         "give every region its own number");
+      });
+}
+
 Schema<mesh::RegionKind> region_kind_schema() {
   return Schema<mesh::RegionKind>("region", "A region of the mesh.")
       .choice(
@@ -126,7 +154,8 @@ struct OutputUnit {
 constexpr OutputUnit output_units[] = {
     {"length", &OutputUnits::length, dimension::length,
      "Coordinates, displacement; squared and cubed for area and volume"},
-    {"time", &OutputUnits::time, dimension::time, "Time in histories and on the screen; series for ParaView count in s"},
+    {"time", &OutputUnits::time, dimension::time,
+     "Time in histories and on the screen; series for ParaView count in s"},
     {"velocity", &OutputUnits::velocity, dimension::velocity, "Velocity"},
     {"pressure", &OutputUnits::pressure, dimension::pressure, "Pressure"},
     {"stress", &OutputUnits::stress, dimension::pressure, "Stress and traction"},
@@ -211,7 +240,7 @@ Schema<MeshSettings> MeshSettings::schema() {
       .unit("length_unit", &MeshSettings::metres_per_unit, dimension::length,
             "Unit of the coordinates in the mesh files; needed when there are any")
       .section("lumen", &MeshSettings::lumen, region_mesh_schema(), "Region filled with blood")
-      .section("wall", &MeshSettings::wall, region_mesh_schema(), "Solid region")
+      .section("wall", &MeshSettings::wall, wall_mesh_schema(), "Solid region")
       .section("gmsh", &MeshSettings::gmsh, gmsh_schema(), "All regions in one file")
       .section("tube", &MeshSettings::tube, tube_schema(), "A tube without files")
       .section("interface", &MeshSettings::interface, interface_schema(),

@@ -40,6 +40,13 @@ struct RegionMesh {
   std::filesystem::path simvascular;  ///< the mesh-complete folder
 };
 
+/// A wall whose volume may hold several regions.
+struct WallMesh {
+  std::filesystem::path simvascular;  ///< the mesh-complete folder
+  std::optional<std::string> region_array;
+  std::map<std::string, int> regions;  ///< number in that array, by the name of the region
+};
+
 /// Several regions in one Gmsh file.
 struct GmshMesh {
   std::filesystem::path file;
@@ -55,7 +62,8 @@ struct InterfaceSettings {
 /// Exactly one of `lumen` and/or `wall`, `gmsh`, `tube` is given.
 struct MeshSettings {
   std::optional<double> metres_per_unit;  ///< of the coordinates in files; present when there are files
-  std::optional<RegionMesh> lumen, wall;
+  std::optional<RegionMesh> lumen;
+  std::optional<WallMesh> wall;
   std::optional<GmshMesh> gmsh;
   std::optional<mesh::TubeSizes> tube;
   std::optional<InterfaceSettings> interface;  ///< present for fluid-structure interaction

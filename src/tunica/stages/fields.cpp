@@ -97,11 +97,10 @@ void OutputFields::compute_shear_stress(const State& state) {
 
 void OutputFields::compute_wall_stress(const State& state) {
   const auto& mesh = problem_.mesh();
-  const wall::Parameters& parameters = *problem_.input().wall;
-  const wall::Law any_law = parameters.law();
-  const wall::Body body = parameters.body();
+  const coupling::WallModel& model = problem_.wall_model();
   for (auto& stress : stress_) {
-    const auto& elements = mesh.regions[stress.region].elements;
+    const auto region = static_cast<std::size_t>(stress.region);
+    const auto& elements = mesh.regions[region].elements;
     for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
       Vec3<double> X[4];
       wall::ElementState<double> s{};
@@ -110,13 +109,11 @@ void OutputFields::compute_wall_stress(const State& state) {
         s.displacement[a] = vector_at(state.displacement.data(), elements[e][a]);
         s.pressure[a] = state.velocity_pressure[at(elements[e][a]) + 3];
       }
-      s.reference = fe::gradients(X);
-      const auto sigma = std::visit(
-          [&](const auto& law) {
-            return parameters.element == wall::Element::mixed ? wall::mixed_cauchy_stress(s, law)
-                                                              : wall::displacement_cauchy_stress(s, law, body);
-          },
-          any_law);
+      const auto index = static_cast<std::int32_t>(e);
+      s.reference = model.reference(region, index, X);
+      const auto [law, body] = model.material(region, index);
+      const auto sigma =
+          model.mixed() ? wall::mixed_cauchy_stress(s, law) : wall::displacement_cauchy_stress(s, law, body);
       stress.von_mises[e] = wall::von_mises(sigma);
       stress.principal[e] = wall::principal_stresses(sigma)[0];
     }

@@ -28,26 +28,39 @@ void collect(std::vector<Problem>& problems, Action action) {
   }
 }
 
-LoadedMesh read_regions(const MeshSettings& m) {
+mesh::SimVascularOptions wall_options(const WallMesh& wall, mesh::SimVascularOptions options,
+                                      const std::vector<std::string>& fields) {
+  options.fields = fields;
+  if (!wall.region_array) return options;
+  options.regions.emplace().array = *wall.region_array;
+  for (const auto& [name, number] : wall.regions) options.regions->names.emplace(number, name);
+  return options;
+}
+
+/// `fields`: element values that the wall needs.
+LoadedMesh read_regions(const MeshSettings& m, const std::vector<std::string>& fields) {
   std::vector<LoadedMesh> parts;
   std::vector<Problem> problems;
   const mesh::SimVascularOptions options{.metres_per_unit = *m.metres_per_unit};
-  const auto read = [&](const std::optional<RegionMesh>& region, RegionKind kind, const char* name) {
-    if (!region) return;
-    collect(problems, [&] { parts.push_back(mesh::read_simvascular(region->simvascular, kind, name, options)); });
-  };
-  read(m.lumen, RegionKind::lumen, "lumen");
-  read(m.wall, RegionKind::wall, "wall");
+  if (m.lumen)
+    collect(problems, [&] {
+      parts.push_back(mesh::read_simvascular(m.lumen->simvascular, RegionKind::lumen, "lumen", options));
+    });
+  if (m.wall)
+    collect(problems, [&] {
+      parts.push_back(mesh::read_simvascular(m.wall->simvascular, RegionKind::wall, "wall",
+                                             wall_options(*m.wall, options, fields)));
+    });
   if (!problems.empty()) throw InputError(std::move(problems));
   if (!m.interface) return mesh::join(parts, {}, {});
   const mesh::Interface interface { m.interface->lumen_faces, m.interface->wall_faces };
   return mesh::join(parts, std::span(&interface, 1), {.tolerance = m.interface->tolerance});
 }
 
-LoadedMesh read_or_generate(const MeshSettings& m) {
+LoadedMesh read_or_generate(const MeshSettings& m, const std::vector<std::string>& fields) {
   if (m.tube) return {mesh::tube(*m.tube), {}};
-  if (!m.gmsh) return read_regions(m);
-  mesh::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}};
+  if (!m.gmsh) return read_regions(m, fields);
+  mesh::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}, .fields = fields};
   for (const auto& [name, kind] : m.gmsh->regions) options.regions.push_back({name, kind});
   return mesh::read_gmsh(m.gmsh->file, options);
 }
@@ -87,7 +100,9 @@ std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSetti
 }
 
 CheckedMesh load_mesh(const Case& c) {
-  LoadedMesh loaded = read_or_generate(c.meshes);
+  const bool needs_frames = c.wall && c.wall->fibre_frame;
+  LoadedMesh loaded =
+      read_or_generate(c.meshes, needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{});
   CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
   std::vector<Problem> problems;
   report_quality(mesh, problems);
@@ -111,6 +126,10 @@ std::uint64_t mesh_hash(const mesh::MeshData& data) {
     hash.add(face.name.data(), face.name.size());
     hash.add(&face.region, sizeof face.region);
     for (const auto& t : face.triangles) hash.add(&t, sizeof t);
+  }
+  for (const auto& field : data.fields) {
+    hash.add(field.name.data(), field.name.size());
+    hash.add(field.values.data(), field.values.size() * sizeof(double));
   }
   for (const auto& twin : data.twins) hash.add(&twin, sizeof twin);
   return hash.value();

@@ -187,6 +187,8 @@ void Run::distribute() {
   fields_.emplace(*problem_, case_);
   log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
                          plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
+  if (problem_->input().wall)
+    for (const auto& line : problem_->wall_model().notes()) log_->info(line);
 }
 
 void Run::restore() {

@@ -9,6 +9,20 @@
 
 namespace tunica::wall {
 
+/// What says how far a law whose stiffness has other names can be compressed.
+struct Compressibility {
+  std::optional<double> poisson_ratio = {};  ///< nu at small strain, 0.5 is incompressible
+  std::optional<double> bulk_modulus = {};   ///< K [Pa]
+
+  /// K [Pa] for the shear modulus at rest [Pa], infinite for nu = 0.5. The constants must have passed check().
+  double bulk(double shear_modulus) const;
+
+  /// Adds what is missing or given twice.
+  void check(config::Problems& problems) const;
+
+  static config::Schema<Compressibility> schema();
+};
+
 struct ElasticConstants {
   std::optional<double> young_modulus = {};  ///< E [Pa]
   std::optional<double> shear_modulus = {};  ///< mu [Pa]

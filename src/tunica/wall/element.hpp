@@ -43,12 +43,14 @@ namespace tunica::wall {
 /// pressure scatters by 8 % of the load at 0.03 and below 1 % from 0.3 on.
 inline constexpr double default_stabilisation = 0.3;
 
-/// What the element needs besides the law.
-struct Body {
-  double density = 0.0;                          ///< rho_0, reference [kg/m^3]
-  Volumetric volumetric;                         ///< energy and K
+/// What the element needs besides the law. In a batch, density and K may differ between the lanes (`Scalar`).
+template <class Scalar>
+struct BodyOf {
+  Scalar density = 0.0;                          ///< rho_0, reference [kg/m^3]
+  VolumetricOf<Scalar> volumetric;               ///< energy and K
   double stabilisation = default_stabilisation;  ///< c > 0, mixed element only [-]
 };
+using Body = BodyOf<double>;
 
 /// Nodal values of one element, or of a batch of elements.
 template <class T>
@@ -111,12 +113,12 @@ TUNICA_INLINE Kinematics<T> kinematics(const ElementState<T>& e) {
 }
 
 /// tau_u [m^2/Pa].
-template <class T, Material L>
-TUNICA_INLINE T subscale_compliance(const ElementState<T>& e, const L& law, const Body& body) {
+template <class T, class L, class U>
+TUNICA_INLINE T subscale_compliance(const ElementState<T>& e, const L& law, const BodyOf<U>& body) {
   T sum(0.0);
 #pragma GCC unroll 4
   for (int a = 0; a < fe::nodes; ++a) sum += dot(e.reference.dN[a], e.reference.dN[a]);
-  return T(6.0 * body.stabilisation / law.shear_modulus_at_rest()) / sum;
+  return T(6.0 * body.stabilisation) / (T(law.shear_modulus_at_rest()) * sum);
 }
 
 /// grad_X p [Pa/m].
@@ -167,8 +169,8 @@ TUNICA_INLINE Stress<T> project(const ElementState<T>& e, const Kinematics<T>& k
 /// Momentum rows: inertia with the consistent mass, V rho_0 (1 + delta_ab) / 20, and internal forces.
 template <class T>
 TUNICA_INLINE void momentum_residual(const ElementState<T>& e, const Kinematics<T>& k, const Stress<T>& s,
-                                     double density, fe::ElementVector<T>& r) {
-  const T V = e.reference.volume, m = T(density / 20.0) * V, isotropic = s.pi - s.theta;
+                                     const T& density, fe::ElementVector<T>& r) {
+  const T V = e.reference.volume, m = T(1.0 / 20.0) * density * V, isotropic = s.pi - s.theta;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     const T sum = e.acceleration[0][i] + e.acceleration[1][i] + e.acceleration[2][i] + e.acceleration[3][i];
@@ -197,27 +199,53 @@ TUNICA_INLINE void complete_by_translation(fe::ElementMatrix<T>& m) {
     for (int j = 0; j < 3; ++j) m.k[0][0][i][j] = -(m.k[1][0][i][j] + m.k[2][0][i][j] + m.k[3][0][i][j]);
 }
 
-/// Adds w B_a : CC' : B_b for nodes 1..3, where B_a,i = sym(grad_X N_a (x) F_i) - (1/3) grad_x N_a,i C is the
-/// isochoric part of the strain variation and CC' = J^(-4/3) CC_bar.
+/// Variation of the strain with the motion of nodes 1..3, B_a,i = sym(grad_X N_a (x) F_i) [node][direction][Voigt],
+/// with shear counted twice.
 template <class T>
-TUNICA_INLINE void add_material_tangent(const ElementState<T>& e, const Kinematics<T>& k,
-                                        const SymmetricTangent<T>& CC_bar, const T& weight, fe::ElementMatrix<T>& m) {
-  // With C = C_bar / scale, scale B_a can be formed from C_bar, which absorbs J^(-4/3).
+struct StrainVariation {
   T B[3][3][voigt_size];
+};
+
+template <class T>
+TUNICA_INLINE StrainVariation<T> strain_variation(const ElementState<T>& e, const Kinematics<T>& k) {
+  StrainVariation<T> v;
 #pragma GCC unroll 3
   for (int a = 0; a < 3; ++a)
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       const Vec3<T>& dN = e.reference.dN[a + 1];
-      const T third = T(1.0 / 3.0) * k.dN_x[a + 1][i];
 #pragma GCC unroll 3
-      for (int n = 0; n < 3; ++n) B[a][i][n] = k.scale * (dN[n] * k.F(i, n)) - third * k.C_bar[n];
+      for (int n = 0; n < 3; ++n) v.B[a][i][n] = dN[n] * k.F(i, n);
 #pragma GCC unroll 3
       for (int n = 3; n < voigt_size; ++n) {
         const int p = voigt_row[n], q = voigt_column[n];
-        B[a][i][n] = k.scale * (dN[p] * k.F(i, q) + dN[q] * k.F(i, p)) - T(2.0) * third * k.C_bar[n];
+        v.B[a][i][n] = dN[p] * k.F(i, q) + dN[q] * k.F(i, p);
       }
     }
+  return v;
+}
+
+/// J^(-2/3) (B_a,i - (1/3) grad_x N_a,i C), the variation of half of C_bar. The factor absorbs the J^(-4/3) that
+/// pulls CC_bar back to C.
+template <class T>
+TUNICA_INLINE StrainVariation<T> isochoric_variation(const Kinematics<T>& k, const StrainVariation<T>& whole) {
+  StrainVariation<T> v;
+#pragma GCC unroll 3
+  for (int a = 0; a < 3; ++a)
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+      const T third = T(1.0 / 3.0) * k.dN_x[a + 1][i];
+#pragma GCC unroll 6
+      for (int n = 0; n < voigt_size; ++n)
+        v.B[a][i][n] = k.scale * whole.B[a][i][n] - T(n < 3 ? 1.0 : 2.0) * third * k.C_bar[n];
+    }
+  return v;
+}
+
+/// Adds w B_a : CC : B_b for nodes 1..3, upper triangle of node blocks.
+template <class T>
+TUNICA_INLINE void add_material_tangent(const StrainVariation<T>& v, const SymmetricTangent<T>& CC, const T& weight,
+                                        fe::ElementMatrix<T>& m) {
 #pragma GCC unroll 3
   for (int b = 0; b < 3; ++b)
 #pragma GCC unroll 3
@@ -225,32 +253,49 @@ TUNICA_INLINE void add_material_tangent(const ElementState<T>& e, const Kinemati
       T D[voigt_size];
 #pragma GCC unroll 6
       for (int n = 0; n < voigt_size; ++n) {
-        T sum = CC_bar(n, 0) * B[b][j][0];
+        T sum = CC(n, 0) * v.B[b][j][0];
 #pragma GCC unroll 6
-        for (int o = 1; o < voigt_size; ++o) sum += CC_bar(n, o) * B[b][j][o];
+        for (int o = 1; o < voigt_size; ++o) sum += CC(n, o) * v.B[b][j][o];
         D[n] = weight * sum;
       }
 #pragma GCC unroll 3
       for (int a = 0; a <= b; ++a)
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) {
-          T sum = B[a][i][0] * D[0];
+          T sum = v.B[a][i][0] * D[0];
 #pragma GCC unroll 6
-          for (int n = 1; n < voigt_size; ++n) sum += B[a][i][n] * D[n];
+          for (int n = 1; n < voigt_size; ++n) sum += v.B[a][i][n] * D[n];
           m.k[a + 1][b + 1][i][j] += sum;
         }
     }
+}
+
+/// Adds the force V F S_u grad_X N_a of a stress outside the isochoric split.
+template <class T>
+TUNICA_INLINE void add_unsplit_residual(const ElementState<T>& e, const Kinematics<T>& k, const Symmetric<T>& S,
+                                        fe::ElementVector<T>& r) {
+#pragma GCC unroll 4
+  for (int a = 1; a < fe::nodes; ++a) {
+    const Vec3<T> force = e.reference.volume * (k.F * (S * e.reference.dN[a]));
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+      r.r[a][i] += force[i];
+      r.r[0][i] -= force[i];
+    }
+  }
 }
 
 /// Velocity block of the tangent: c_u V d(P grad_X N_a)_i / du_b,j plus the mass. With kappa = J dpi/dJ,
 ///   k_ab,ij = delta_ij s_b.grad_X N_a + (theta - pi) g_a,j g_b,i + (2/3 theta + kappa) g_a,i g_b,j
 ///             - 2/3 (g_a,i q_b,j + q_a,i g_b,j) + B_a,i : CC' : B_b,j,      g_a = grad_x N_a.
 /// It is the standard isochoric split (Holzapfel 2000, eq. 6.168) contracted by hand: the geometric stiffness of the
-/// isotropic stress cancels against the C^-1 (.) C^-1 terms.
-template <class T, Material L>
+/// isotropic stress cancels against the C^-1 (.) C^-1 terms. A part outside the split adds
+///   delta_ij grad_X N_b . S_u grad_X N_a + B_a,i : CC_u : B_b,j  with the whole strain variation.
+/// `CC_bar` and `unsplit` may be null.
+template <class T>
 TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T>& k, const Stress<T>& s,
-                                    const SymmetricTangent<T>* CC_bar, const T& kappa, double density,
-                                    const Coefficients& c, fe::ElementMatrix<T>& m) {
+                                    const SymmetricTangent<T>* CC_bar, const Response<T>* unsplit, const T& kappa,
+                                    const T& density, const Coefficients& c, fe::ElementMatrix<T>& m) {
   const T weight = T(c.displacement) * e.reference.volume;
   const T swap = weight * (s.theta - s.pi), rank_one = weight * (T(2.0 / 3.0) * s.theta + kappa);
   const T cross_weight = weight * T(-2.0 / 3.0);
@@ -259,10 +304,12 @@ TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T
     const Vec3<T>& g_b = k.dN_x[b];
     const Vec3<T> cross_b = cross_weight * g_b, swap_b = swap * g_b;
     const Vec3<T> first = rank_one * g_b + cross_weight * s.q[b];
+    Vec3<T> s_b = s.s[b];
+    if (unsplit != nullptr) s_b = s_b + unsplit->stress * e.reference.dN[b];
 #pragma GCC unroll 3
     for (int a = 1; a <= b; ++a) {
       const Vec3<T>& g_a = k.dN_x[a];
-      const T diagonal = weight * dot(e.reference.dN[a], s.s[b]);
+      const T diagonal = weight * dot(e.reference.dN[a], s_b);
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
@@ -273,7 +320,11 @@ TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T
         }
     }
   }
-  if constexpr (!is_linear<L>) add_material_tangent(e, k, *CC_bar, weight, m);
+  if (CC_bar != nullptr || unsplit != nullptr) {
+    const StrainVariation<T> whole = strain_variation(e, k);
+    if (CC_bar != nullptr) add_material_tangent(isochoric_variation(k, whole), *CC_bar, weight, m);
+    if (unsplit != nullptr) add_material_tangent(whole, unsplit->tangent, weight, m);
+  }
 #pragma GCC unroll 3
   for (int b = 1; b < fe::nodes; ++b)
 #pragma GCC unroll 3
@@ -283,7 +334,7 @@ TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) m.k[b][a][j][i] = m.k[a][b][i][j];
   complete_by_translation(m);
-  const T mass = T(c.acceleration * density / 20.0) * e.reference.volume;
+  const T mass = T(c.acceleration / 20.0) * density * e.reference.volume;
 #pragma GCC unroll 4
   for (int a = 0; a < fe::nodes; ++a)
 #pragma GCC unroll 4
@@ -292,17 +343,51 @@ TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T
       for (int i = 0; i < 3; ++i) m.k[a][b][i][i] += a == b ? mass + mass : mass;
 }
 
+/// Momentum rows of either element for a given pi.
+template <class T, class L>
+TUNICA_INLINE void add_momentum(const ElementState<T>& e, const Kinematics<T>& k, const L& law, const T& pi,
+                                const T& density, fe::ElementVector<T>& r) {
+  momentum_residual(e, k, project(e, k, stress(law, k.C_bar), pi), density, r);
+  if constexpr (can_be_unsplit<L>)
+    if (law.has_unsplit_part()) add_unsplit_residual(e, k, law.unsplit_stress(right_cauchy_green(k.F)), r);
+}
+
+/// The same with the tangent of the motion; kappa = J dpi/dJ.
+template <class T, class L>
+TUNICA_INLINE void add_momentum(const ElementState<T>& e, const Kinematics<T>& k, const L& law, const T& pi,
+                                const T& kappa, const T& density, const Coefficients& c, fe::ElementVector<T>& r,
+                                fe::ElementMatrix<T>& m) {
+  Response<T> unsplit;
+  const Response<T>* extra = nullptr;
+  if constexpr (can_be_unsplit<L>)
+    if (law.has_unsplit_part()) {
+      unsplit = law.unsplit_response(right_cauchy_green(k.F));
+      extra = &unsplit;
+    }
+  if constexpr (is_linear<L>) {
+    const Stress<T> s = project(e, k, stress(law, k.C_bar), pi);
+    momentum_residual(e, k, s, density, r);
+    momentum_tangent<T>(e, k, s, nullptr, extra, kappa, density, c, m);
+  } else {
+    const Response<T> both = response(law, k.C_bar);
+    const Stress<T> s = project(e, k, both.stress, pi);
+    momentum_residual(e, k, s, density, r);
+    momentum_tangent<T>(e, k, s, &both.tangent, extra, kappa, density, c, m);
+  }
+  if (extra != nullptr) add_unsplit_residual(e, k, extra->stress, r);
+}
+
 template <class T>
 TUNICA_INLINE T mean_pressure(const ElementState<T>& e) {
   return T(0.25) * (e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3]);
 }
 
-template <class T>
-TUNICA_INLINE void constraint_residual(const ElementState<T>& e, const Kinematics<T>& k, const T& tau, const Body& body,
-                                       double factor, fe::ElementVector<T>& r) {
+template <class T, class U>
+TUNICA_INLINE void constraint_residual(const ElementState<T>& e, const Kinematics<T>& k, const T& tau,
+                                       const BodyOf<U>& body, double factor, fe::ElementVector<T>& r) {
   const T V = T(factor) * e.reference.volume;
   const T g = T(0.25) * body.volumetric.unit_pressure(k.J);
-  const T compressibility(body.volumetric.compressibility() / 20.0);
+  const T compressibility(T(body.volumetric.compressibility()) * T(1.0 / 20.0));
   const T sum = e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3];
   Vec3<T> flux = pressure_gradient(e);
 #pragma GCC unroll 3
@@ -313,12 +398,12 @@ TUNICA_INLINE void constraint_residual(const ElementState<T>& e, const Kinematic
 }
 
 /// Pressure column and constraint row, with dJ = J (grad_x N_b)_j du_b,j.
-template <class T>
-TUNICA_INLINE void constraint_tangent(const ElementState<T>& e, const Kinematics<T>& k, const T& tau, const Body& body,
-                                      const Coefficients& c, fe::ElementMatrix<T>& m) {
+template <class T, class U>
+TUNICA_INLINE void constraint_tangent(const ElementState<T>& e, const Kinematics<T>& k, const T& tau,
+                                      const BodyOf<U>& body, const Coefficients& c, fe::ElementMatrix<T>& m) {
   const T quarter = T(0.25) * e.reference.volume * k.J, row = T(c.constraint) * e.reference.volume;
   const T volume_change = T(c.constraint * c.displacement) * quarter * body.volumetric.unit_stiffness(k.J);
-  const T mass = T(body.volumetric.compressibility() / 20.0) * row, laplace = row * tau;
+  const T mass = T(body.volumetric.compressibility()) * T(1.0 / 20.0) * row, laplace = row * tau;
 #pragma GCC unroll 4
   for (int a = 0; a < fe::nodes; ++a) {
     const Vec3<T> column = -quarter * k.dN_x[a], dilation = volume_change * k.dN_x[a];
@@ -338,33 +423,24 @@ TUNICA_INLINE void constraint_tangent(const ElementState<T>& e, const Kinematics
 }  // namespace detail
 
 /// Displacement element, residual [N]; pressure rows zero. K must be finite.
-template <class T, Material L>
-TUNICA_INLINE void displacement_residual(const ElementState<T>& e, const L& law, const Body& body,
+template <class T, class L, class U>
+TUNICA_INLINE void displacement_residual(const ElementState<T>& e, const L& law, const BodyOf<U>& body,
                                          fe::ElementVector<T>& r) {
   const Kinematics<T> k = kinematics(e);
   const T pi = T(body.volumetric.bulk_modulus) * k.J * body.volumetric.unit_pressure(k.J);
-  detail::momentum_residual(e, k, detail::project(e, k, stress(law, k.C_bar), pi), body.density, r);
+  detail::add_momentum(e, k, law, pi, T(body.density), r);
 #pragma GCC unroll 4
   for (int a = 0; a < fe::nodes; ++a) r.r[a][3] = T(0.0);
 }
 
 /// Displacement element, residual [N] and tangent; pressure rows and columns zero. K must be finite.
-template <class T, Material L>
-TUNICA_INLINE void displacement_tangent(const ElementState<T>& e, const L& law, const Body& body, const Coefficients& c,
-                                        fe::ElementVector<T>& r, fe::ElementMatrix<T>& m) {
+template <class T, class L, class U>
+TUNICA_INLINE void displacement_tangent(const ElementState<T>& e, const L& law, const BodyOf<U>& body,
+                                        const Coefficients& c, fe::ElementVector<T>& r, fe::ElementMatrix<T>& m) {
   const Kinematics<T> k = kinematics(e);
   const T bulk(body.volumetric.bulk_modulus), p = bulk * body.volumetric.unit_pressure(k.J), pi = k.J * p;
   const T kappa = pi + k.J * k.J * bulk * body.volumetric.unit_stiffness(k.J);
-  if constexpr (is_linear<L>) {
-    const detail::Stress<T> s = detail::project(e, k, stress(law, k.C_bar), pi);
-    detail::momentum_residual(e, k, s, body.density, r);
-    detail::momentum_tangent<T, L>(e, k, s, nullptr, kappa, body.density, c, m);
-  } else {
-    const Response<T> both = response(law, k.C_bar);
-    const detail::Stress<T> s = detail::project(e, k, both.stress, pi);
-    detail::momentum_residual(e, k, s, body.density, r);
-    detail::momentum_tangent<T, L>(e, k, s, &both.tangent, kappa, body.density, c, m);
-  }
+  detail::add_momentum(e, k, law, pi, kappa, T(body.density), c, r, m);
 #pragma GCC unroll 4
   for (int a = 0; a < fe::nodes; ++a) {
     r.r[a][3] = T(0.0);
@@ -378,31 +454,22 @@ TUNICA_INLINE void displacement_tangent(const ElementState<T>& e, const L& law, 
 }
 
 /// Mixed element, residual: momentum [N], constraint s [m^3].
-template <class T, Material L>
-TUNICA_INLINE void mixed_residual(const ElementState<T>& e, const L& law, const Body& body, const Coefficients& c,
+template <class T, class L, class U>
+TUNICA_INLINE void mixed_residual(const ElementState<T>& e, const L& law, const BodyOf<U>& body, const Coefficients& c,
                                   fe::ElementVector<T>& r) {
   const Kinematics<T> k = kinematics(e);
   const T pi = -k.J * detail::mean_pressure(e);
-  detail::momentum_residual(e, k, detail::project(e, k, stress(law, k.C_bar), pi), body.density, r);
+  detail::add_momentum(e, k, law, pi, T(body.density), r);
   detail::constraint_residual(e, k, subscale_compliance(e, law, body), body, c.constraint, r);
 }
 
 /// Mixed element, residual and tangent.
-template <class T, Material L>
-TUNICA_INLINE void mixed_tangent(const ElementState<T>& e, const L& law, const Body& body, const Coefficients& c,
+template <class T, class L, class U>
+TUNICA_INLINE void mixed_tangent(const ElementState<T>& e, const L& law, const BodyOf<U>& body, const Coefficients& c,
                                  fe::ElementVector<T>& r, fe::ElementMatrix<T>& m) {
   const Kinematics<T> k = kinematics(e);
   const T pi = -k.J * detail::mean_pressure(e);  // at fixed p, J dpi/dJ = pi
-  if constexpr (is_linear<L>) {
-    const detail::Stress<T> s = detail::project(e, k, stress(law, k.C_bar), pi);
-    detail::momentum_residual(e, k, s, body.density, r);
-    detail::momentum_tangent<T, L>(e, k, s, nullptr, pi, body.density, c, m);
-  } else {
-    const Response<T> both = response(law, k.C_bar);
-    const detail::Stress<T> s = detail::project(e, k, both.stress, pi);
-    detail::momentum_residual(e, k, s, body.density, r);
-    detail::momentum_tangent<T, L>(e, k, s, &both.tangent, pi, body.density, c, m);
-  }
+  detail::add_momentum(e, k, law, pi, pi, T(body.density), c, r, m);
   const T tau = subscale_compliance(e, law, body);
   detail::constraint_residual(e, k, tau, body, c.constraint, r);
   detail::constraint_tangent(e, k, tau, body, c, m);

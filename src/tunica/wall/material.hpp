@@ -1,59 +1,49 @@
-// The list of wall laws. A new law is a file in materials/, an entry here and example parameters in the laws' test.
+// The list of wall laws. A new law is a file in materials/, an entry in Law (if it needs new kernels) and in
+// LawParameters, and example parameters in the laws' test.
 //
-// A law in the list has, besides what the concept Material asks for, the struct Parameters that the case file fills
-// (schema(), and a member ElasticConstants elastic), and from(Parameters), which prepares it for the kernels.
+// The parameters of a law are what the case file fills: schema(), law(), which prepares the law for the kernels, and
+// bulk_modulus(). Several may share one law.
 #pragma once
 
 #include <concepts>
+#include <string>
 #include <variant>
+#include <vector>
 
+#include "tunica/wall/materials/dfd.hpp"
+#include "tunica/wall/materials/fung.hpp"
+#include "tunica/wall/materials/hgo.hpp"
+#include "tunica/wall/materials/mooney_rivlin.hpp"
 #include "tunica/wall/materials/neo_hooke.hpp"
 
 namespace tunica::wall {
 
-using Law = std::variant<NeoHooke>;
-
-template <class L>
-concept ListedMaterial = Material<L> && requires(const typename L::Parameters& p) {
-  { L::from(p) } -> std::same_as<L>;
-  { L::Parameters::schema() } -> std::same_as<config::Schema<typename L::Parameters>>;
-  { p.elastic } -> std::same_as<const ElasticConstants&>;
-};
-
-namespace detail {
-
-template <class Variant>
-struct Listed;
-template <ListedMaterial... L>
-struct Listed<std::variant<L...>> {
-  using Parameters = std::variant<typename L::Parameters...>;
-
-  static Law make(const Parameters& parameters) {
-    Law law;
-    // The alternatives of both variants stand in the same order.
-    ((std::holds_alternative<typename L::Parameters>(parameters)
-          ? void(law = L::from(std::get<typename L::Parameters>(parameters)))
-          : void()),
-     ...);
-    return law;
-  }
-  static config::Schema<Parameters> schema() {
-    config::Schema<Parameters> s("material", "Wall law.");
-    s.one_of();
-    (s.alternative(L::Parameters::schema()), ...);
-    return s;
-  }
-};
-
-}  // namespace detail
+using Law = std::variant<NeoHooke, MooneyRivlin, StructureTensorLaw, Fung, DiscreteFibreLaw>;
 
 /// Parameters of one of the laws, as the case file gives them.
-using LawParameters = detail::Listed<Law>::Parameters;
+using LawParameters = std::variant<NeoHookeParameters, MooneyRivlinParameters, HgoParameters, GohParameters,
+                                   FungParameters, DfdParameters>;
 
-inline Law make_law(const LawParameters& parameters) { return detail::Listed<Law>::make(parameters); }
-inline config::Schema<LawParameters> law_schema() { return detail::Listed<Law>::schema(); }
-inline const ElasticConstants& elastic_constants(const LawParameters& parameters) {
-  return std::visit([](const auto& p) -> const ElasticConstants& { return p.elastic; }, parameters);
-}
+/// Prepares a law; the parameters must have passed the checks of their schema. Throws InputError when a rule of fibre
+/// directions cannot keep its tolerance.
+Law make_law(const LawParameters& parameters);
+
+/// K [Pa], infinite when incompressible.
+double bulk_modulus(const LawParameters& parameters);
+
+/// Of the law at rest, without its fibres [Pa].
+double matrix_shear_modulus(const LawParameters& parameters);
+
+double shear_modulus_at_rest(const Law& law);
+
+bool has_unsplit_part(const Law& law);
+
+/// What a log should say of a law once it is prepared: the rule of fibre directions and its error. One line each.
+std::vector<std::string> notes(const Law& law);
+
+/// Does the law distinguish directions, so that it needs a fibre frame?
+bool is_anisotropic(const LawParameters& parameters);
+
+config::Schema<LawParameters> law_schema();
 
 }  // namespace tunica::wall

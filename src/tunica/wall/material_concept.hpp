@@ -8,6 +8,11 @@
 // by dual numbers. A law may write them by hand for speed, in stress() and response(); the shared tests hold the two
 // against each other. A law whose energy is linear in C_bar says so, and the kernels then skip CC_bar.
 //
+// A law may keep a part of its energy out of the isochoric split (Nolan et al. 2014): fibres that feel C itself, so
+// that they do not resist a change of volume by a change of shape. Its energy then is Psi(C_bar) + Psi_u(C), with
+//     Psi_u = law.unsplit_energy(C),   S_u = 2 dPsi_u/dC,   CC_u = 4 d2Psi_u/dC dC,
+// written by hand in unsplit_stress() and unsplit_response(); law.has_unsplit_part() says whether there is one.
+//
 // Components refer to the axes in which the reference gradients of the element are given. A fibre law wants the
 // element's fibre frame (e1 circumferential, e2 longitudinal, e3 radial): store the gradients in that frame and nothing
 // has to be rotated, since F = dx/dX keeps global axes for x.
@@ -41,29 +46,44 @@ inline constexpr bool is_linear = requires {
   requires Law::linear;
 };
 
+/// True for laws that can have a part outside the isochoric split.
+template <class Law>
+inline constexpr bool can_be_unsplit = requires(const Law& law) {
+  { law.has_unsplit_part() } -> std::same_as<bool>;
+};
+
+/// Has the law a part outside the isochoric split?
+template <class Law>
+inline bool has_unsplit_part(const Law& law) {
+  if constexpr (can_be_unsplit<Law>)
+    return law.has_unsplit_part();
+  else
+    return false;
+}
+
 /// dPsi/dC_IJ from the derivative with respect to the Voigt variable, which stands for two entries in shear.
 inline constexpr double voigt_share[voigt_size] = {1.0, 1.0, 1.0, 0.5, 0.5, 0.5};
 
-/// S_bar from the energy alone.
-template <class T, Material Law>
-inline Symmetric<T> derived_stress(const Law& law, const Symmetric<T>& C_bar) {
+/// 2 dPsi/dC from the energy alone, a function of Symmetric<any scalar>.
+template <class T, class Energy>
+inline Symmetric<T> derived_stress(const Energy& energy, const Symmetric<T>& at) {
   using D = Dual<T, voigt_size>;
   Symmetric<D> C;
-  for (int i = 0; i < voigt_size; ++i) C[i] = D::variable(C_bar[i], i);
-  const D psi = law.energy(C);
+  for (int i = 0; i < voigt_size; ++i) C[i] = D::variable(at[i], i);
+  const D psi = energy(C);
   Symmetric<T> S;
   for (int i = 0; i < voigt_size; ++i) S[i] = T(2.0 * voigt_share[i]) * psi.d[i];
   return S;
 }
 
-/// S_bar and CC_bar from the energy alone.
-template <class T, Material Law>
-inline Response<T> derived_response(const Law& law, const Symmetric<T>& C_bar) {
+/// 2 dPsi/dC and 4 d2Psi/dC dC from the energy alone.
+template <class T, class Energy>
+inline Response<T> derived_response(const Energy& energy, const Symmetric<T>& at) {
   using D = Dual<T, voigt_size>;
   using DD = Dual<D, voigt_size>;
   Symmetric<DD> C;
-  for (int i = 0; i < voigt_size; ++i) C[i] = DD::variable(D::variable(C_bar[i], i), i);
-  const DD psi = law.energy(C);
+  for (int i = 0; i < voigt_size; ++i) C[i] = DD::variable(D::variable(at[i], i), i);
+  const DD psi = energy(C);
   Response<T> r;
   for (int i = 0; i < voigt_size; ++i) {
     r.stress[i] = T(2.0 * voigt_share[i]) * psi.value.d[i];
@@ -73,21 +93,21 @@ inline Response<T> derived_response(const Law& law, const Symmetric<T>& C_bar) {
 }
 
 /// S_bar [Pa]: by hand where the law has it, else derived.
-template <class T, Material Law>
+template <class T, class Law>
 TUNICA_INLINE Symmetric<T> stress(const Law& law, const Symmetric<T>& C_bar) {
   if constexpr (requires { law.stress(C_bar); })
     return law.stress(C_bar);
   else
-    return derived_stress(law, C_bar);
+    return derived_stress([&](const auto& C) { return law.energy(C); }, C_bar);
 }
 
 /// S_bar and CC_bar [Pa]: by hand where the law has it, else derived. Not for linear laws.
-template <class T, Material Law>
+template <class T, class Law>
 TUNICA_INLINE Response<T> response(const Law& law, const Symmetric<T>& C_bar) {
   if constexpr (requires { law.response(C_bar); })
     return law.response(C_bar);
   else
-    return derived_response(law, C_bar);
+    return derived_response([&](const auto& C) { return law.energy(C); }, C_bar);
 }
 
 }  // namespace tunica::wall

@@ -14,18 +14,31 @@ TUNICA_INLINE T kinetic_energy(const T& volume, const Vec3<T> (&velocity)[fe::no
   return T(density / 40.0) * volume * squares;
 }
 
-/// Stored energy of a displacement element [J]: V (Psi(C_bar) + K G(J)).
-template <class T, Material L>
+namespace detail {
+
+/// Psi(C_bar) + Psi_u(C) [Pa].
+template <class T, class L>
+TUNICA_INLINE T strain_energy_density(const Kinematics<T>& k, const L& law) {
+  T psi = law.energy(k.C_bar);
+  if constexpr (can_be_unsplit<L>)
+    if (law.has_unsplit_part()) psi += law.unsplit_energy(right_cauchy_green(k.F));
+  return psi;
+}
+
+}  // namespace detail
+
+/// Stored energy of a displacement element [J]: V (Psi + K G(J)).
+template <class T, class L>
 TUNICA_INLINE T displacement_strain_energy(const ElementState<T>& e, const L& law, const Body& body) {
   const Kinematics<T> k = kinematics(e);
   const T volumetric = T(body.volumetric.bulk_modulus) * body.volumetric.unit_energy(k.J);
-  return e.reference.volume * (law.energy(k.C_bar) + volumetric);
+  return e.reference.volume * (detail::strain_energy_density(k, law) + volumetric);
 }
 
-/// Stored energy of a mixed element [J]: V Psi(C_bar) + integral of p^2 / (2 K) + tau_u/2 |grad_X p|^2. The volumetric
+/// Stored energy of a mixed element [J]: V Psi + integral of p^2 / (2 K) + tau_u/2 |grad_X p|^2. The volumetric
 /// part is exact for the quadratic energy and to first order in p/K for the others; it vanishes when incompressible.
 /// The last term is what the stabilisation stores, of order h^2; without it the energy balance would not close.
-template <class T, Material L>
+template <class T, class L>
 TUNICA_INLINE T mixed_strain_energy(const ElementState<T>& e, const L& law, const Body& body) {
   const Kinematics<T> k = kinematics(e);
   const T sum = e.pressure[0] + e.pressure[1] + e.pressure[2] + e.pressure[3];
@@ -33,17 +46,21 @@ TUNICA_INLINE T mixed_strain_energy(const ElementState<T>& e, const L& law, cons
   for (const T& p : e.pressure) squares += p * p;
   const Vec3<T> gradient = pressure_gradient(e);
   const T subscale = T(0.5) * subscale_compliance(e, law, body) * dot(gradient, gradient);
-  return e.reference.volume * (law.energy(k.C_bar) + T(body.volumetric.compressibility() / 40.0) * squares + subscale);
+  return e.reference.volume *
+         (detail::strain_energy_density(k, law) + T(body.volumetric.compressibility() / 40.0) * squares + subscale);
 }
 
 namespace detail {
 
-/// sigma = [F S' F^T + (pi - theta) I] / J with S' = J^(-2/3) S_bar, (1.5) pushed forward.
-template <class T, Material L>
+/// sigma = [F (S' + S_u) F^T + (pi - theta) I] / J with S' = J^(-2/3) S_bar, (1.5) pushed forward.
+template <class T, class L>
 TUNICA_INLINE Symmetric<T> cauchy(const Kinematics<T>& k, const L& law, const T& pi) {
   const Symmetric<T> S_bar = stress(law, k.C_bar);
   const T inverse_J = T(1.0) / k.J;
-  const Mat3<T> FS = k.F * full(k.scale * S_bar);
+  Symmetric<T> S = k.scale * S_bar;
+  if constexpr (can_be_unsplit<L>)
+    if (law.has_unsplit_part()) S = S + law.unsplit_stress(right_cauchy_green(k.F));
+  const Mat3<T> FS = k.F * full(S);
   const T isotropic = pi - T(1.0 / 3.0) * double_dot(S_bar, k.C_bar);
   Symmetric<T> sigma;
   for (int n = 0; n < voigt_size; ++n) {
@@ -58,7 +75,7 @@ TUNICA_INLINE Symmetric<T> cauchy(const Kinematics<T>& k, const L& law, const T&
 }  // namespace detail
 
 /// Cauchy stress of a displacement element [Pa], global axes, Voigt 11 22 33 12 23 13.
-template <class T, Material L>
+template <class T, class L>
 TUNICA_INLINE Symmetric<T> displacement_cauchy_stress(const ElementState<T>& e, const L& law, const Body& body) {
   const Kinematics<T> k = kinematics(e);
   const T pi = T(body.volumetric.bulk_modulus) * k.J * body.volumetric.unit_pressure(k.J);
@@ -66,7 +83,7 @@ TUNICA_INLINE Symmetric<T> displacement_cauchy_stress(const ElementState<T>& e, 
 }
 
 /// Cauchy stress of a mixed element with its mean pressure [Pa], global axes, Voigt 11 22 33 12 23 13.
-template <class T, Material L>
+template <class T, class L>
 TUNICA_INLINE Symmetric<T> mixed_cauchy_stress(const ElementState<T>& e, const L& law) {
   const Kinematics<T> k = kinematics(e);
   return detail::cauchy(k, law, T(-k.J * detail::mean_pressure(e)));

@@ -1,31 +1,60 @@
 #include "tunica/wall/parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace tunica::wall {
 
 namespace {
 
-void check_element(const Parameters& p, config::Problems& problems) {
-  if (p.element != Element::displacement) return;
-  const double bulk = p.body().volumetric.bulk_modulus, shear = elastic_constants(p.material).shear();
+void check_compressibility(const LawParameters& material, const std::string& where, config::Problems& problems) {
+  const double bulk = bulk_modulus(material), shear = matrix_shear_modulus(material);
   if (!std::isfinite(bulk)) {
-    problems.add("element", "is displacement, which needs a finite bulk modulus, but the material is incompressible",
+    problems.add("element", "is displacement, which needs a finite bulk modulus, but " + where + " is incompressible",
                  "use element: mixed, or poisson_ratio below 0.5");
     return;
   }
   const double nu = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
   if (nu > 0.45)
-    problems.warn("element", "is displacement with a Poisson's ratio of " + std::to_string(nu) + ", where it locks",
+    problems.warn("element",
+                  fmt::format("is displacement, and {} has a Poisson's ratio of {:.6g}, where it locks", where, nu),
                   "use element: mixed");
+}
+
+void check_regions(const Parameters& p, config::Problems& problems) {
+  const auto each = [&](const auto& visit) {
+    visit(p.material, std::string("the material"));
+    for (const auto& [name, region] : p.regions) visit(region.material, "the material of region " + name);
+  };
+  if (p.element == Element::displacement)
+    each([&](const LawParameters& m, const std::string& where) { check_compressibility(m, where, problems); });
+  if (!p.fibre_frame)
+    each([&](const LawParameters& m, const std::string& where) {
+      if (is_anisotropic(m))
+        problems.add("fibre_frame", "is not given, but " + where + " has directions",
+                     "say where circumferential and longitudinal are, for example `fibre_frame: {cylindrical: {origin: "
+                     "[0, 0, 0] mm, axis: [0, 0, 1]}}`");
+    });
+  if (!p.regions.empty() && !p.smoothing_length)
+    problems.add(
+        "smoothing_length", "is not given, but the regions have materials of their own",
+        "give the length over which one turns into the next, about one wall thickness; 0 lets them jump, which "
+        "makes peaks of stress");
 }
 
 }  // namespace
 
 Body Parameters::body() const {
-  return {.density = density,
-          .volumetric = {volumetric_energy, elastic_constants(material).bulk()},
-          .stabilisation = stabilisation};
+  return {
+      .density = density, .volumetric = {volumetric_energy, bulk_modulus(material)}, .stabilisation = stabilisation};
+}
+
+config::Schema<RegionMaterial> RegionMaterial::schema() {
+  return config::Schema<RegionMaterial>("region_material", "A region with a material of its own.")
+      .quantity("density", &RegionMaterial::density, config::dimension::density, config::above(0),
+                "Density in the reference state; that of the wall when left out")
+      .section("material", &RegionMaterial::material, law_schema(), "Law of the region and its parameters");
 }
 
 config::Schema<Parameters> Parameters::schema() {
@@ -37,6 +66,15 @@ config::Schema<Parameters> Parameters::schema() {
                 "Density in the reference state")
       .plausible("500 kg/m^3", "3000 kg/m^3")
       .section("material", &Parameters::material, law_schema(), "Law of the wall and its parameters")
+      .map("regions", &Parameters::regions, RegionMaterial::schema(),
+           "Wall regions of the mesh with a material of their own, by name")
+      .by_default()
+      .quantity(
+          "smoothing_length", &Parameters::smoothing_length, config::dimension::length, config::at_least(0),
+          "Length over which the material of one region turns into that of the next, about one wall thickness; 0: "
+          "it jumps")
+      .section("fibre_frame", &Parameters::fibre_frame, frame_schema(),
+               "Circumferential, longitudinal and radial direction; for laws with fibres")
       .choice("volumetric_energy", &Parameters::volumetric_energy,
               {{"simo_taylor", VolumetricEnergy::simo_taylor},
                {"quadratic", VolumetricEnergy::quadratic},
@@ -47,7 +85,7 @@ config::Schema<Parameters> Parameters::schema() {
               "Constant c of the mixed element's subscale, c h^2 / mu; larger damps pressure oscillations more")
       .by_default()
       .plausible("0.005", "2")
-      .check(check_element);
+      .check(check_regions);
 }
 
 }  // namespace tunica::wall

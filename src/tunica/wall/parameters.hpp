@@ -1,8 +1,13 @@
 // The wall section of the case file.
 #pragma once
 
+#include <map>
+#include <optional>
+#include <string>
+
 #include "tunica/config/schema.hpp"
 #include "tunica/wall/element.hpp"
+#include "tunica/wall/fibre_frame.hpp"
 #include "tunica/wall/material.hpp"
 
 namespace tunica::wall {
@@ -12,18 +17,28 @@ enum class Element {
   displacement  ///< displacement only; locks when nearly incompressible
 };
 
+/// What a region of the wall has of its own.
+struct RegionMaterial {
+  std::optional<double> density;  ///< rho_0 [kg/m^3]; else that of the wall
+  LawParameters material;
+  static config::Schema<RegionMaterial> schema();
+};
+
 struct Parameters {
   Element element = Element::mixed;
-  double density = 0.0;  ///< rho_0 [kg/m^3]
-  LawParameters material;
+  double density = 0.0;    ///< rho_0 [kg/m^3]
+  LawParameters material;  ///< of all regions that `regions` does not name
+  std::map<std::string, RegionMaterial> regions;
+  std::optional<double> smoothing_length;  ///< over which one material turns into the next [m]; 0: they jump
+  std::optional<FrameSource> fibre_frame;
   VolumetricEnergy volumetric_energy = VolumetricEnergy::simo_taylor;
   double stabilisation = default_stabilisation;  ///< c in tau_u = c h^2 / mu [-]
 
+  /// Of the regions that `regions` does not name.
   Law law() const { return make_law(material); }
   Body body() const;
 
-  /// Keys element, density, material, volumetric_energy, stabilisation. An incompressible law with the displacement
-  /// element is an error.
+  /// An incompressible law with the displacement element, and a law with fibres but no fibre frame, are errors.
   static config::Schema<Parameters> schema();
 };
 

@@ -17,13 +17,14 @@ enum class VolumetricEnergy {
   miehe         ///< K (J - ln J - 1)
 };
 
-/// The three energies must not be mixed within one batch; the choice is one value for all lanes.
-struct Volumetric {
+/// The three energies must not be mixed within one batch; K may differ between its lanes (`Scalar`).
+template <class Scalar>
+struct VolumetricOf {
   VolumetricEnergy energy = VolumetricEnergy::simo_taylor;
-  double bulk_modulus = std::numeric_limits<double>::infinity();  ///< K [Pa], infinite when incompressible
+  Scalar bulk_modulus = std::numeric_limits<double>::infinity();  ///< K [Pa], infinite when incompressible
 
   /// 1/K [1/Pa], zero when incompressible.
-  double compressibility() const { return 1.0 / bulk_modulus; }
+  TUNICA_INLINE Scalar compressibility() const { return Scalar(1.0) / bulk_modulus; }
 
   /// G(J) [-].
   template <class T>
@@ -47,5 +48,7 @@ struct Volumetric {
     return T(1.0) / (J * J);
   }
 };
+
+using Volumetric = VolumetricOf<double>;
 
 }  // namespace tunica::wall

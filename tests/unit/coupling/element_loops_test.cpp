@@ -90,29 +90,31 @@ struct Loops : testing::TestWithParam<wall::Element> {
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
   test::Fields fields = test::random_fields(mesh);
   wall::Parameters wall = test::soft_wall(GetParam());
-  wall::Law law = wall.law();
+  WallModel model;
 
   // The last element is left out, so that the last batches have spare lanes.
-  Loops() {
+  Loops() : model((shorten(), mesh), wall) {}
+
+  void shorten() {
     for (auto& region : mesh.regions) region.elements.pop_back();
   }
 
   void run(assembly::Isa isa, std::vector<double>& residual, assembly::BlockMatrix* matrix, int& spare,
            int& split) const {
     const LoopTarget target{residual.data(), matrix == nullptr ? nullptr : matrix->blocks.data()->a};
-    for (const auto& region : mesh.regions)
-      for (const bool is_split : {false, true}) {
-        const int width = static_cast<int>(isa);
-        const auto batches = assembly::make_batches(mesh, region, pattern, width, is_split);
-        if (batches.elements == 0) continue;
-        spare += width - batches.lanes_used(batches.batches() - 1);
-        split += is_split ? batches.elements : 0;
-        if (region.kind == mesh::RegionKind::lumen)
-          element_loops(isa).fluid(BatchView(batches), fields.view(), test::blood(), fluid_time, target);
-        else
-          element_loops(isa).wall(BatchView(batches), fields.view(), law, GetParam() == wall::Element::mixed,
-                                  wall.body(), wall_coefficients, target);
+    const int width = static_cast<int>(isa);
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+      if (mesh.regions[r].kind == mesh::RegionKind::lumen) {
+        const auto batches = assembly::make_batches(mesh, mesh.regions[r], pattern, width, false);
+        element_loops(isa).fluid(BatchView(batches), fields.view(), test::blood(), fluid_time, target);
+        continue;
       }
+      for (const auto& group : model.groups(mesh, r, pattern, width)) {
+        spare += width - group.batches.lanes_used(group.batches.batches() - 1);
+        split += group.batches.split ? group.batches.elements : 0;
+        element_loops(isa).wall(group.view(), fields.view(), model.element_settings(), wall_coefficients, target);
+      }
+    }
   }
 };
 

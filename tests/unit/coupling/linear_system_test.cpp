@@ -20,6 +20,7 @@ struct FsiSystem {
   assembly::Isa isa = assembly::choose_isa();
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
   Boundaries boundaries{mesh, pattern, input.boundary};
+  WallModel wall{mesh, *input.wall};
   assembly::TimeScheme scheme = assembly::TimeScheme::generalised_alpha(1e-4, 0.5);
   assembly::BlockMatrix matrix{pattern};
 
@@ -31,19 +32,20 @@ struct FsiSystem {
     std::vector<double> residual(at(mesh.nodes()), 0.0);
     const LoopTarget target{residual.data(), tangent == nullptr ? nullptr : tangent->blocks.data()->a};
     const auto& s = scheme;
-    for (const auto& region : mesh.regions)
-      for (const bool split : {false, true}) {
-        const auto batches = assembly::make_batches(mesh, region, pattern, static_cast<int>(isa), split);
-        if (batches.elements == 0) continue;
-        if (region.kind == mesh::RegionKind::lumen)
-          element_loops(isa).fluid(BatchView(batches), fields.view(), *input.fluid,
-                                   {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, target);
-        else
-          element_loops(isa).wall(BatchView(batches), fields.view(), input.wall->law(), true, input.wall->body(),
-                                  {s.acceleration_per_unknown(), s.displacement_per_unknown(),
-                                   s.velocity_per_unknown() / s.displacement_per_unknown()},
-                                  target);
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+      const int width = static_cast<int>(isa);
+      if (mesh.regions[r].kind == mesh::RegionKind::lumen) {
+        const auto batches = assembly::make_batches(mesh, mesh.regions[r], pattern, width, false);
+        element_loops(isa).fluid(BatchView(batches), fields.view(), *input.fluid,
+                                 {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, target);
+        continue;
       }
+      for (const auto& group : wall.groups(mesh, r, pattern, width))
+        element_loops(isa).wall(group.view(), fields.view(), wall.element_settings(),
+                                {s.acceleration_per_unknown(), s.displacement_per_unknown(),
+                                 s.velocity_per_unknown() / s.displacement_per_unknown()},
+                                target);
+    }
     boundaries.add_loads(0.0, 1.0, fields.view(), {s.velocity_per_unknown(), s.displacement_per_unknown()}, residual,
                          tangent);
     return residual;

@@ -35,7 +35,7 @@ ProblemInput coupled_input(wall::Element element) {
   in.wall = wall::Parameters{};
   in.wall->element = element;
   in.wall->density = 1200;
-  auto& law = std::get<wall::NeoHooke::Parameters>(in.wall->material);
+  auto& law = std::get<wall::NeoHookeParameters>(in.wall->material);
   law.elastic.young_modulus = 3e5;
   law.elastic.poisson_ratio = 0.3;
   in.boundary.wall_has_pressure = element == wall::Element::mixed;

@@ -69,7 +69,7 @@ TEST(Case, ReadsACoupledCase) {
   EXPECT_DOUBLE_EQ(c.meshes.tube->radius, 0.005);
   EXPECT_EQ(c.meshes.interface->wall_faces, std::vector<std::string>{"wall_inner"});
   EXPECT_DOUBLE_EQ(std::get<fluid::Newtonian>(c.fluid->viscosity).mu, 0.004);
-  EXPECT_DOUBLE_EQ(*wall::elastic_constants(c.wall->material).young_modulus, 3e5);
+  EXPECT_DOUBLE_EQ(*std::get<wall::NeoHookeParameters>(c.wall->material).elastic.young_modulus, 3e5);
   EXPECT_EQ(c.mesh_motion->poisson_ratio, 0.3);
   ASSERT_EQ(c.boundary.size(), 5u);
   EXPECT_EQ(c.boundary[4].first, "wall_outer");

@@ -49,7 +49,7 @@ TEST(LoadMesh, ReportsTheProblemsOfBothMeshes) {
   Case c = tube_case(sound);
   c.meshes = {.metres_per_unit = 1.0,
               .lumen = RegionMesh{folder.path() / "a"},
-              .wall = RegionMesh{folder.path() / "b"},
+              .wall = WallMesh{folder.path() / "b", {}, {}},
               .gmsh = {},
               .tube = {},
               .interface = c.meshes.interface};

@@ -6,30 +6,37 @@
 
 namespace tunica::wall {
 
-struct NeoHooke {
+/// In a batch, the modulus may differ between the lanes (`Scalar`).
+template <class Scalar>
+struct NeoHookeOf {
   static constexpr bool linear = true;
 
-  struct Parameters {
-    ElasticConstants elastic;
-    static config::Schema<Parameters> schema() {
-      return config::Schema<Parameters>("neo_hooke", "Isotropic neo-Hooke law, mu/2 (I1 - 3).")
-          .include(&Parameters::elastic, ElasticConstants::schema());
-    }
-  };
-  static NeoHooke from(const Parameters& p) { return {.shear_modulus = p.elastic.shear()}; }
-
-  double shear_modulus;  ///< mu [Pa]
+  Scalar shear_modulus;  ///< mu [Pa]
 
   template <class T>
   TUNICA_INLINE T energy(const Symmetric<T>& C_bar) const {
-    return T(0.5 * shear_modulus) * (trace(C_bar) - T(3.0));
+    return T(0.5) * T(shear_modulus) * (trace(C_bar) - T(3.0));
   }
   template <class T>
   TUNICA_INLINE Symmetric<T> stress(const Symmetric<T>&) const {
     const T mu(shear_modulus), zero(0.0);
     return {{mu, mu, mu, zero, zero, zero}};
   }
-  double shear_modulus_at_rest() const { return shear_modulus; }
+  TUNICA_INLINE Scalar shear_modulus_at_rest() const { return shear_modulus; }
+};
+
+using NeoHooke = NeoHookeOf<double>;
+
+struct NeoHookeParameters {
+  ElasticConstants elastic;
+
+  NeoHooke law() const { return {.shear_modulus = elastic.shear()}; }
+  double shear_modulus() const { return elastic.shear(); }
+  double bulk_modulus() const { return elastic.bulk(); }
+  static config::Schema<NeoHookeParameters> schema() {
+    return config::Schema<NeoHookeParameters>("neo_hooke", "Isotropic neo-Hooke law, mu/2 (I1 - 3).")
+        .include(&NeoHookeParameters::elastic, ElasticConstants::schema());
+  }
 };
 
 }  // namespace tunica::wall

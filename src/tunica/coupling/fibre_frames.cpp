@@ -1,0 +1,59 @@
+#include "tunica/coupling/fibre_frames.hpp"
+
+#include <fmt/format.h>
+
+#include "tunica/base/error.hpp"
+
+namespace tunica::coupling {
+
+namespace {
+
+using wall::FibreFrame;
+
+Vec3<double> centroid(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element) {
+  return 0.25 *
+         ((mesh.points[element[0]] + mesh.points[element[1]]) + (mesh.points[element[2]] + mesh.points[element[3]]));
+}
+
+FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region&, std::size_t, const wall::ConstantFrame& source) {
+  return source.frame();
+}
+
+FibreFrame frame_of(const mesh::DistributedMesh& mesh, const mesh::Region& region, std::size_t element,
+                    const wall::CylindricalFrame& source) {
+  return source.at(centroid(mesh, region.elements[element]));
+}
+
+FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region& region, std::size_t element,
+                    const wall::MeshFrame& source) {
+  const auto vector = [&](const std::string& name) {
+    const mesh::ElementField& field = region.field(name);
+    if (field.components != 3)
+      throw InputError("wall.fibre_frame.mesh", fmt::format("cell array {} has {} components", name, field.components),
+                       "use a vector array");
+    const double* v = field.values.data() + 3 * element;
+    return Vec3<double>{{v[0], v[1], v[2]}};
+  };
+  return wall::orthonormal_frame(
+      vector(source.e1), vector(source.e2),
+      fmt::format("fibre frame of element {} of region {}", region.element_ids[element] + 1, region.name));
+}
+
+}  // namespace
+
+std::vector<double> fibre_frames(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+                                 const wall::FrameSource& source) {
+  std::vector<double> frames;
+  frames.reserve(6 * region.elements.size());
+  std::visit(
+      [&](const auto& s) {
+        for (std::size_t e = 0; e < region.elements.size(); ++e) {
+          const FibreFrame frame = frame_of(mesh, region, e, s);
+          frames.insert(frames.end(), {frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]});
+        }
+      },
+      source);
+  return frames;
+}
+
+}  // namespace tunica::coupling

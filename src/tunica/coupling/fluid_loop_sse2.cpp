@@ -1,0 +1,5 @@
+#include "tunica/coupling/fluid_loop.inl.hpp"
+
+namespace tunica::coupling {
+template FluidLoop fluid_loop<2>();
+}

@@ -1,0 +1,127 @@
+// The loop over wall elements; included only by the translation units of one instruction set each.
+#pragma once
+
+#include "tunica/coupling/gather.inl.hpp"
+
+namespace tunica::coupling {
+
+namespace {
+
+/// Edges from node 0 in the fibre frame, given as e1 and e2; node 0 becomes the origin.
+template <int W>
+TUNICA_INLINE void rotate_to_frame(const double* frame, Vec3<Pack<W>> (&x)[4]) {
+  Vec3<Pack<W>> e1, e2;
+  for (int i = 0; i < 3; ++i) {
+    e1[i] = Pack<W>::load(frame + i * W);
+    e2[i] = Pack<W>::load(frame + (3 + i) * W);
+  }
+  const Vec3<Pack<W>> e3 = cross(e1, e2);
+  for (int a = 1; a < 4; ++a) {
+    const Vec3<Pack<W>> edge = x[a] - x[0];
+    x[a] = {{dot(e1, edge), dot(e2, edge), dot(e3, edge)}};
+  }
+  for (int i = 0; i < 3; ++i) x[0][i] = Pack<W>(0.0);
+}
+
+/// The blend of one batch as the kernels want it.
+template <int W, wall::LawKind kind>
+TUNICA_INLINE auto law_of(const WallGroupView& group, std::int32_t batch, const Pack<W>& shear_modulus) {
+  if constexpr (kind == wall::LawKind::linear) {
+    return wall::NeoHookeOf<Pack<W>>{shear_modulus};
+  } else {
+    using Law =
+        std::conditional_t<kind == wall::LawKind::unsplit, wall::UnsplitBlendedLaw<Pack<W>>, wall::BlendedLaw<Pack<W>>>;
+    Law law;
+    law.laws = group.laws;
+    law.weights = group.weights == nullptr ? nullptr
+                                           : group.weights + static_cast<std::ptrdiff_t>(batch) *
+                                                                 static_cast<std::ptrdiff_t>(group.laws.size()) * W;
+    law.shear_modulus = shear_modulus;
+    return law;
+  }
+}
+
+template <int W, wall::LawKind kind, bool mixed, bool with_tangent>
+void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
+                    const wall::Coefficients& coefficients, const LoopTarget& target) {
+  const BatchView& batches = group.batches;
+  const std::ptrdiff_t kinds = batches.split ? 4 : 1;
+  for (std::int32_t batch = 0; batch < batches.batches; ++batch) {
+    const std::int32_t* nodes = batches.nodes + static_cast<std::ptrdiff_t>(batch) * 4 * W;
+    wall::ElementState<Pack<W>> state;
+    Vec3<Pack<W>> position[4], velocity[4];
+    gather_vectors<W>(fields.reference_position, nodes, position);
+    if (group.frames != nullptr)
+      rotate_to_frame<W>(group.frames + static_cast<std::ptrdiff_t>(batch) * 6 * W, position);
+    state.reference = fe::gradients(position);
+    gather_vectors<W>(fields.displacement, nodes, state.displacement);
+    gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
+    gather_vectors<W>(fields.velocity_pressure, nodes, velocity, state.pressure);
+    const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 3 * W;
+    const wall::BodyOf<Pack<W>> body{.density = Pack<W>::load(values),
+                                     .volumetric = {settings.volumetric_energy, Pack<W>::load(values + W)},
+                                     .stabilisation = settings.stabilisation};
+    const auto law = law_of<W, kind>(group, batch, Pack<W>::load(values + 2 * W));
+    const int used = used_lanes<W>(batches, batch);
+    fe::ElementVector<Pack<W>> r;
+    if constexpr (with_tangent) {
+      const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * 16 * W;
+      assembly::prefetch_blocks<W>(slots, static_cast<int>(kinds), target.blocks);
+      fe::ElementMatrix<Pack<W>> k;
+      if constexpr (mixed)
+        wall::mixed_tangent(state, law, body, coefficients, r, k);
+      else
+        wall::displacement_tangent(state, law, body, coefficients, r, k);
+      if (batches.split)
+        assembly::scatter_tangent_split<W>(k, slots, used, target.blocks);
+      else
+        assembly::scatter_tangent<W>(k, slots, used, target.blocks);
+    } else {
+      if constexpr (mixed)
+        wall::mixed_residual(state, law, body, coefficients, r);
+      else
+        wall::displacement_residual(state, law, body, r);
+    }
+    if (batches.split)
+      assembly::scatter_residual_split<W>(r, nodes, batches.hosts + static_cast<std::ptrdiff_t>(batch) * 4 * W, used,
+                                          target.residual);
+    else
+      assembly::scatter_residual<W>(r, nodes, used, target.residual);
+  }
+}
+
+template <int W, wall::LawKind kind>
+void wall_of_kind(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
+                  const wall::Coefficients& coefficients, const LoopTarget& target) {
+  const bool with_tangent = target.blocks != nullptr;
+  if (settings.mixed && with_tangent)
+    loop_over_wall<W, kind, true, true>(group, fields, settings, coefficients, target);
+  else if (settings.mixed)
+    loop_over_wall<W, kind, true, false>(group, fields, settings, coefficients, target);
+  else if (with_tangent)
+    loop_over_wall<W, kind, false, true>(group, fields, settings, coefficients, target);
+  else
+    loop_over_wall<W, kind, false, false>(group, fields, settings, coefficients, target);
+}
+
+template <int W>
+void wall(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
+          const wall::Coefficients& coefficients, const LoopTarget& target) {
+  switch (group.kind) {
+    case wall::LawKind::linear:
+      return wall_of_kind<W, wall::LawKind::linear>(group, fields, settings, coefficients, target);
+    case wall::LawKind::isochoric:
+      return wall_of_kind<W, wall::LawKind::isochoric>(group, fields, settings, coefficients, target);
+    case wall::LawKind::unsplit:
+      return wall_of_kind<W, wall::LawKind::unsplit>(group, fields, settings, coefficients, target);
+  }
+}
+
+}  // namespace
+
+template <int W>
+WallLoop wall_loop() {
+  return &wall<W>;
+}
+
+}  // namespace tunica::coupling

@@ -1,0 +1,5 @@
+#include "tunica/coupling/wall_loop.inl.hpp"
+
+namespace tunica::coupling {
+template WallLoop wall_loop<8>();
+}

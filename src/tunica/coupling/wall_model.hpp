@@ -1,0 +1,83 @@
+// What the wall is made of: prepared laws, the blend of materials and the fibre frame of every element.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tunica/assembly/element_batches.hpp"
+#include "tunica/coupling/element_loops.hpp"
+#include "tunica/wall/blended_law.hpp"
+#include "tunica/wall/parameters.hpp"
+
+namespace tunica::coupling {
+
+class WallModel {
+ public:
+  /// Throws InputError when a region of the parameters is not in the mesh, a frame cannot be found, or the rule of
+  /// fibre directions cannot keep its tolerance. Collective.
+  WallModel(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters);
+
+  bool mixed() const { return mixed_; }
+
+  /// What a log should say of the laws: one line each.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// [Pa] the largest of the materials.
+  double shear_modulus_at_rest() const;
+
+  /// Law and body of one element; refers to this model.
+  struct ElementMaterial {
+    wall::UnsplitBlendedLaw<double> law;
+    wall::Body body;
+  };
+  ElementMaterial material(std::size_t region, std::int32_t element) const;
+
+  /// Gradients with respect to the fibre frame, or the global axes where no law needs one.
+  fe::Gradients<double> reference(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const;
+
+  /// e1 and e2 of the fibre frame of each element of a region, [element][6]; empty where no law needs one.
+  const std::vector<double>& frames(std::size_t region) const { return regions_[region].frames; }
+
+  /// Weight of a material in an element: 0 is that of all regions without one of their own, then the others by name.
+  double weight(std::size_t region, std::int32_t element, std::size_t material) const;
+  std::size_t materials() const { return laws_.size(); }
+
+  /// Elements of equal materials in batches, with what the loops need of them.
+  struct Group {
+    assembly::ElementBatches batches;
+    wall::LawKind kind;
+    std::vector<const wall::Law*> laws;
+    std::vector<double> weights;  ///< [batch][law][lane], empty for one law
+    std::vector<double> bodies;   ///< [batch][density, K, mu][lane]
+    std::vector<double> frames;   ///< [batch][6][lane], empty without frames
+
+    WallGroupView view() const;
+  };
+  std::vector<Group> groups(const mesh::DistributedMesh& mesh, std::size_t region,
+                            const assembly::BlockPattern& pattern, int width) const;
+  WallElementSettings element_settings() const;
+
+ private:
+  struct Blend {
+    std::vector<std::size_t> materials;
+    std::vector<const wall::Law*> laws;
+  };
+  struct RegionModel {
+    std::vector<std::int32_t> blend;   ///< [element] in blends_
+    std::vector<std::size_t> weights;  ///< [element] begin in weights_
+    std::vector<double> frames;
+  };
+  double blended(const std::vector<double>& of_material, const Blend& blend, const double* weights) const;
+
+  bool mixed_;
+  wall::VolumetricEnergy volumetric_energy_;
+  double stabilisation_;
+  std::vector<wall::Law> laws_;
+  std::vector<double> densities_, bulk_moduli_, shear_moduli_;  ///< [material]
+  std::vector<std::string> notes_;
+  std::vector<Blend> blends_;
+  std::vector<double> weights_;
+  std::vector<RegionModel> regions_;  ///< [region of the mesh], empty for the lumen
+};
+
+}  // namespace tunica::coupling

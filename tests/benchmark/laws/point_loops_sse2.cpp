@@ -1,0 +1,5 @@
+#include "benchmark/laws/point_loops.inl.hpp"
+
+namespace tunica::benchmarks {
+template PointLoops make_point_loops<2>();
+}
