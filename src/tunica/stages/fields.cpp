@@ -103,14 +103,13 @@ void OutputFields::compute_wall_stress(const State& state) {
     const auto& elements = mesh.regions[region].elements;
     for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
       Vec3<double> X[4];
-      wall::ElementState<double> s{};
+      for (int a = 0; a < 4; ++a) X[a] = mesh.points[elements[e][a]];
+      const auto index = static_cast<std::int32_t>(e);
+      wall::ElementState<double> s = model.at_rest(region, index, X);
       for (int a = 0; a < 4; ++a) {
-        X[a] = mesh.points[elements[e][a]];
         s.displacement[a] = vector_at(state.displacement.data(), elements[e][a]);
         s.pressure[a] = state.velocity_pressure[at(elements[e][a]) + 3];
       }
-      const auto index = static_cast<std::int32_t>(e);
-      s.reference = model.reference(region, index, X);
       const auto [law, body] = model.material(region, index);
       const auto sigma =
           model.mixed() ? wall::mixed_cauchy_stress(s, law) : wall::displacement_cauchy_stress(s, law, body);

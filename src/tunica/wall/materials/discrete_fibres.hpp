@@ -1,4 +1,4 @@
-// Discrete fibre dispersion: the energy of the fibres summed over representative directions, (1.1) and (1.6),
+// Discrete fibre dispersion: the energy of the fibres summed over representative directions, (1.13) and (1.14),
 //   Psi = sum_n rho_n f(C : N_n (x) N_n - 1),   S = 2 sum_n rho_n f' N (x) N,   CC = 4 sum_n rho_n f'' N (x) N (x) N
 //   (x) N
 // (Li, Holzapfel et al. 2018, "A discrete fibre dispersion method for excluding fibres under compression").
@@ -50,19 +50,21 @@ struct FibreChunk {
                   (C12 * T(NN[3]) + C23 * T(NN[4]) + (C13 * T(NN[5]) - T(1.0)));
       strain[count] = E;
       direction[count] = first + i;
-      count += !tension_only || any_positive(E) ? 1 : 0;
+      count += !tension_only || any_above(E, T(switch_strain)) ? 1 : 0;
     }
   }
   /// 2 rho f' and, if `with_curvature`, 4 rho f''.
   template <bool with_curvature>
   TUNICA_INLINE void differentiate(const FibreEnergy& energy, bool tension_only) {
     const T lowest = tension_only ? T(0.0) : T(-2.0);  // C : N (x) N - 1 is above -1
+    const T pulling = tension_only ? T(switch_strain) : lowest;
     const T twice_k1(2.0 * energy.k1), four_k2(4.0 * energy.k2);
     for (int i = 0; i < count; ++i) {
       const T E = max(strain[i], lowest);
       const T scaled = twice_k1 * T(direction[i]->density) * energy.exponential(E);
       slope[i] = scaled * E;
-      if constexpr (with_curvature) curvature[i] = select(E > lowest, scaled * (T(2.0) + four_k2 * (E * E)), T(0.0));
+      if constexpr (with_curvature)
+        curvature[i] = select(strain[i] > pulling, scaled * (T(2.0) + four_k2 * (E * E)), T(0.0));
     }
   }
 };
