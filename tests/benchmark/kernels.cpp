@@ -81,7 +81,7 @@ struct Setting {
     auto settings = wall_model.element_settings();
     settings.mixed = mixed;
     coupling::element_loops(isa).wall.assemble(group.view(), fields(), settings, {1e4, 1e-4, 1e4},
-                                      {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
+                                               {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
   }
   void assemble() {
     matrix.set_zero();
