@@ -155,7 +155,7 @@ class Equilibrium {
       sum += r * r;
     }
     t.norm = std::sqrt(sum);
-    t.valid = std::isfinite(t.norm);
+    t.valid = std::isfinite(t.norm) && std::isfinite(scale);
     return t;
   }
 
