@@ -222,7 +222,7 @@ Schema<MaterialCase> MaterialCase::schema() {
       .include(&MaterialCase::volumetric_energy, wall::volumetric_energy_schema())
       .flag("incompressible", &MaterialCase::incompressible,
             "true: the volume is kept whatever the bulk modulus. When left out, the bulk modulus decides")
-      .map("tests", &MaterialCase::tests, test_schema(), "Tests by name; each writes <name>.csv and <name>.svg")
+      .map("tests", &MaterialCase::tests, test_schema(), "Tests by name; each writes `<name>.csv` and `<name>.svg`")
       .section("output", &MaterialCase::output, output_schema(), "Results")
       .by_default()
       .check(check_case);

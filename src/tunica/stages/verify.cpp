@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/series_file.hpp"
@@ -17,8 +18,7 @@ namespace tunica::stages {
 namespace {
 
 constexpr double element_bound = 1e-4, direction_bound = 6e-3;
-// Without exclusion the 256 directions themselves are 0.617 % off in the smallest shear, where the stress is a fiftieth
-// of the largest.
+// Without exclusion the 256 directions themselves are 0.62 % off in the smallest shears.
 constexpr double open_shear_bound = 6.5e-3;
 
 bool is_extension(const CubeCase& c) { return c.loading == CubeLoading::extension; }
@@ -42,16 +42,21 @@ std::vector<double> point_stresses(const CubeCase& c, bool incompressible) {
                   false);
 }
 
+/// A stress that is no number is infinitely far off.
+double worse(double largest, double difference) {
+  return std::isfinite(difference) ? std::max(largest, difference) : std::numeric_limits<double>::infinity();
+}
+
 double pointwise(const std::vector<double>& a, const std::vector<double>& reference) {
   double largest = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, std::abs(a[n] / reference[n] - 1.0));
+  for (std::size_t n = 0; n < a.size(); ++n) largest = worse(largest, std::abs(a[n] / reference[n] - 1.0));
   return largest;
 }
 
 double to_the_largest(const std::vector<double>& a, const std::vector<double>& reference) {
   double difference = 0.0, size = 0.0;
   for (std::size_t n = 0; n < a.size(); ++n) {
-    difference = std::max(difference, std::abs(a[n] - reference[n]));
+    difference = worse(difference, std::abs(a[n] - reference[n]));
     size = std::max(size, std::abs(reference[n]));
   }
   return difference / size;
@@ -182,8 +187,9 @@ bool verify(const std::filesystem::path& folder, std::FILE* screen) {
   report(folder, comparisons, screen);
   std::fprintf(
       screen,
-      "\nPointwise, the shear without exclusion has the bound %.2g %%: in the smallest shear the 256 directions\n"
-      "themselves are 0.617 %% off, where the stress is 3 %% of the largest.\n",
+      "\nKnown exception: without exclusion of fibres the 256 directions themselves are 0.62 %% off the density in\n"
+      "the smallest shears, where the stress is 2 %% of the largest; the pointwise bound there is %.2f %%.\n"
+      "Elements and analytic solution also differ by the finite bulk modulus, 0.15 %% in the extension.\n",
       100.0 * open_shear_bound);
   const auto failed = std::count_if(comparisons.begin(), comparisons.end(), [](const auto& c) { return !c.passed(); });
   std::fprintf(screen, "%s: %zu of %zu comparisons passed; tables and figures in %s\n", failed == 0 ? "PASS" : "FAIL",

@@ -38,10 +38,10 @@ struct CubeCase {
 /// The extension with mu = 50 and 100 kPa, then the shear, each with and without fibres under compression.
 std::vector<CubeCase> cube_cases();
 
-/// Cauchy stress [Pa] sigma_33 at a stretch along e3, or sigma_13 at an amount of shear in the plane of e1 and e3, by
-/// adaptive Gauss-Kronrod quadrature of the density, to about 1e-10. The extension needs the mean direction e3.
-/// Holzapfel & Ogden (2015), doi:10.1098/rspa.2014.0961, with the density of docs/theory.md (1.7). Throws SolverError
-/// when the quadrature does not reach 1e-8.
+/// Cauchy stress [Pa] sigma_33 at a stretch along e3, or sigma_13 at an amount of shear in the plane of e1 and e3:
+/// S = mu I + 2 sum over the families of the mean of rho f' N (x) N over the sphere, by adaptive Gauss-Kronrod
+/// quadrature to about 1e-10; rho of docs/theory.md (1.7), f of (1.4). The extension needs the mean direction e3.
+/// Throws SolverError when the quadrature does not reach 1e-8.
 double analytic_stress(const CubeCase& c, double load);
 
 }  // namespace tunica::stages
