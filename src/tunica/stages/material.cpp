@@ -24,6 +24,8 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
 
 bool is_shear(const Loading& loading) { return std::holds_alternative<SimpleShear>(loading); }
 bool is_given(const Loading& loading) { return std::holds_alternative<Gradients>(loading); }

@@ -17,8 +17,6 @@ constexpr double tolerance = 1e-11;  // of stresses relative to the largest, of 
 constexpr int most_iterations = 40, most_halvings = 10, most_unknowns = 6;
 constexpr double smallest_step = 1.0 / 256.0;  // of the way from the start to the target
 
-double shear_scale(const Law& law) { return shear_modulus_at_rest(law); }
-
 double size(const Symmetric<double>& a) { return std::sqrt(double_dot(a, a)); }
 
 /// The state at F with the pressure p, whether or not p belongs to J.
@@ -85,7 +83,7 @@ bool eliminate(double (&A)[most_unknowns][most_unknowns], double (&b)[most_unkno
 class Equilibrium {
  public:
   Equilibrium(const Law& law, const Volumetric& volumetric, const FibreFrame& axes, bool across_is_held)
-      : law_(law), volumetric_(volumetric), Q_(columns(axes)), modulus_(shear_scale(law)) {
+      : law_(law), volumetric_(volumetric), rotation_(columns(axes)), modulus_(shear_modulus_at_rest(law)) {
     // Voigt 11 22 33 12 23 13
     for (const int n : across_is_held ? std::vector{2, 4, 5} : std::vector{1, 2, 3, 4, 5}) {
       const Vec3<double> a = column(voigt_row[n]), b = column(voigt_column[n]);
@@ -126,11 +124,11 @@ class Equilibrium {
     double norm = 0.0;
   };
 
-  Vec3<double> column(int j) const { return {{Q_(0, j), Q_(1, j), Q_(2, j)}}; }
+  Vec3<double> column(int j) const { return {{rotation_(0, j), rotation_(1, j), rotation_(2, j)}}; }
 
   /// C of `start` stretched to the held values at constant volume.
   Symmetric<double> predict(const Stretches& s, const PathPoint& start) const {
-    const Mat3<double> F = start.F * Q_;
+    const Mat3<double> F = start.F * rotation_;
     Symmetric<double> C = right_cauchy_green(F);
     const double along = s.along / std::sqrt(C[0]);
     const double across = s.across ? *s.across / std::sqrt(C[1]) : 1.0 / std::sqrt(along);
@@ -146,7 +144,7 @@ class Equilibrium {
     const auto U = upper_root(C);
     if (!U) return t;
     t.C = C;
-    t.point = state_at(law_, volumetric_, Q_ * *U * transpose(Q_), pressure);
+    t.point = state_at(law_, volumetric_, rotation_ * *U * transpose(rotation_), pressure);
     t.volume = volumetric_.unit_pressure(t.point.state.J) + pressure * volumetric_.compressibility();
     const double scale = std::max(modulus_, size(t.point.state.stress));
     double sum = t.volume * t.volume;
@@ -205,7 +203,7 @@ class Equilibrium {
 
   const Law& law_;
   Volumetric volumetric_;
-  Mat3<double> Q_;
+  Mat3<double> rotation_;  ///< axes of the specimen as columns
   double modulus_;
   std::vector<Component> free_;
 };
