@@ -7,9 +7,9 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/problem.hpp"
+#include "tunica/coupling/wall_element.hpp"
 #include "tunica/mesh/distributed_mesh.hpp"
 #include "tunica/mesh/generate.hpp"
-#include "tunica/wall/output.hpp"
 
 namespace tunica::stages {
 
@@ -66,20 +66,8 @@ std::vector<double> element_stresses(const coupling::Problem& problem, const cou
   const coupling::WallModel& model = problem.wall_model();
   std::vector<double> stresses;
   for (std::size_t e = 0; e < mesh.regions[0].elements.size(); ++e) {
-    Vec3<double> X[4];
-    wall::ElementState<double> s{};
-    for (int a = 0; a < 4; ++a) {
-      const std::int32_t node = mesh.regions[0].elements[e][a];
-      const std::size_t at = 4 * static_cast<std::size_t>(node);
-      X[a] = mesh.points[node];
-      for (int k = 0; k < 3; ++k) s.displacement[a][k] = state.displacement[at + k];
-      s.pressure[a] = state.velocity_pressure[at + 3];
-    }
     const auto index = static_cast<std::int32_t>(e);
-    s.reference = model.reference(0, index, X);
-    const auto [law, body] = model.material(0, index);
-    const auto sigma =
-        model.mixed() ? wall::mixed_cauchy_stress(s, law) : wall::displacement_cauchy_stress(s, law, body);
+    const auto sigma = coupling::cauchy_stress(model, 0, index, coupling::wall_element(mesh, model, state, 0, index));
     stresses.push_back(sigma[component]);
   }
   return stresses;

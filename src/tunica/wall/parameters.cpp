@@ -34,7 +34,7 @@ void check_regions(const Parameters& p, config::Problems& problems) {
       if (is_anisotropic(m))
         problems.add("fibre_frame", "is not given, but " + where + " has directions",
                      "say where circumferential and longitudinal are, for example `fibre_frame: {cylindrical: {origin: "
-                     "[0, 0, 0] mm, axis: [0, 0, 1]}}`");
+                     "[0 mm, 0 mm, 0 mm], axis: [0, 0, 1]}}`");
     });
   if (!p.regions.empty() && !p.smoothing_length)
     problems.add(

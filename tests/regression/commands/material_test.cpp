@@ -47,7 +47,7 @@ TEST_F(Program, MaterialTestsADeformedLaw) {
   EXPECT_EQ(run("material wrong.yaml"), 2) << read("out.txt");
   EXPECT_EQ(run("material"), 2);
   std::ofstream(folder_ / "failing.yaml") << "material: {hgo: {shear_modulus: 20 kPa, poisson_ratio: 0.5, families: "
-                                             "[{k1: 1 kPa, k2: 99, mean_angle: 0}]}}\n"
+                                             "[{k1: 1 kPa, k2: 99, mean_angle: 0 deg}]}}\n"
                                              "tests: {pull: {uniaxial: {to: 9}}}\n";
   EXPECT_EQ(run("material failing.yaml"), 3) << read("out.txt");
 }

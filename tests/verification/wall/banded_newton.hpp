@@ -59,7 +59,8 @@ class BandedNewton {
       const auto& nodes = e.nodes;
       fe::ElementVector<double> r;
       fe::ElementMatrix<double> k;
-      wall::displacement_tangent(e.state, e.material.law, e.material.body, wall::Coefficients{}, r, k);
+      const auto [law, body] = model_.material(0, element);
+      wall::displacement_tangent(e.state, law, body, wall::Coefficients{}, r, k);
       for (int a = 0; a < 4; ++a)
         for (int i = 0; i < 3; ++i) {
           residual_[3 * static_cast<std::size_t>(nodes[a]) + i] += r.r[a][i];

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tunica/coupling/problem.hpp"
+#include "tunica/coupling/wall_element.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/wall/output.hpp"
@@ -97,24 +98,17 @@ struct ElementData {
   Vec3<double> X[4];
   std::array<std::int32_t, 4> nodes;
   wall::ElementState<double> state;  ///< gradients in the fibre frame, if the law has one
-  coupling::WallModel::ElementMaterial material;
+  std::size_t region;
+  std::int32_t element;
 };
 
 inline ElementData gather(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
                           std::size_t region, std::int32_t element) {
   ElementData e;
   e.nodes = mesh.regions[region].elements[element];
-  const auto& nodes = e.nodes;
-  for (int a = 0; a < 4; ++a) e.X[a] = mesh.points[nodes[a]];
-  e.state = model.at_rest(region, element, e.X);
-  for (int a = 0; a < 4; ++a) {
-    e.state.pressure[a] = state.velocity_pressure[at(nodes[a]) + 3];
-    for (int c = 0; c < 3; ++c) {
-      e.state.displacement[a][c] = state.displacement[at(nodes[a]) + c];
-      e.state.acceleration[a][c] = state.acceleration[at(nodes[a]) + c];
-    }
-  }
-  e.material = model.material(region, element);
+  for (int a = 0; a < 4; ++a) e.X[a] = mesh.points[e.nodes[a]];
+  e.state = coupling::wall_element(mesh, model, state, region, element);
+  e.region = region, e.element = element;
   return e;
 }
 
@@ -128,8 +122,7 @@ void for_each_element(const mesh::DistributedMesh& mesh, const coupling::WallMod
 }
 
 inline Mat3<double> cauchy_stress(const ElementData& e, const coupling::WallModel& model) {
-  const auto s = model.mixed() ? wall::mixed_cauchy_stress(e.state, e.material.law)
-                               : wall::displacement_cauchy_stress(e.state, e.material.law, e.material.body);
+  const auto s = coupling::cauchy_stress(model, e.region, e.element, e.state);
   return {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
 }
 
