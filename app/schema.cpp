@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "tunica/stages/case.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
 
 namespace tunica::app {
 
@@ -13,11 +14,13 @@ void add_schema(CLI::App& app) {
       "Examples:\n  tunica schema > case-file.md\n  tunica schema --json > tunica.schema.json\n"
       "An editor that knows YAML completes and checks case files that begin with the line\n"
       "  # yaml-language-server: $schema=tunica.schema.json");
-  const auto json = std::make_shared<bool>(false);
+  const auto json = std::make_shared<bool>(false), mesh = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "As JSON Schema instead of Markdown");
-  command->callback([json] {
-    const auto schema = stages::Case::schema();
-    const config::Description& description = *schema.description();
+  command->add_flag("--mesh", *mesh, "Of the file of `tunica mesh` instead of a case file");
+  command->callback([json, mesh] {
+    const auto of_mesh = stages::meshing::MeshCase::schema();
+    const auto of_case = stages::Case::schema();
+    const config::Description& description = *mesh ? *of_mesh.description() : *of_case.description();
     std::fputs((*json ? config::json_schema(description) : config::markdown(description)).c_str(), stdout);
   });
 }
