@@ -62,11 +62,11 @@ Centreline::Closest Centreline::closest(const Point& p) const {
       const double half = 0.5 * piece.length / piece.radius;
       if (angle < half - std::numbers::pi) angle += 2 * std::numbers::pi;
       along = angle * piece.radius;
-      toward = piece.radius - std::hypot(x, y);
+      toward = piece.radius - std::sqrt(x * x + y * y);
     }
     const double beyond = std::max(-along, along - piece.length);
     const double clamped = std::clamp(along, 0.0, piece.length);
-    double distance = std::hypot(toward, aside);
+    double distance = std::sqrt(toward * toward + aside * aside);
     if (beyond > 0) {
       const Frame& end = along < 0 ? piece.first : piece.last;
       const Point e = p - end.origin;

@@ -10,9 +10,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi, far = 1.0;  // m
 
+/// std::hypot without its care for overflow, which takes most of the time of a label.
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 /// Union and intersection of two bodies, the edge between them replaced by an arc of radius r.
 double rounded_union(double a, double b, double r) {
-  return std::max(r, std::min(a, b)) - std::hypot(std::max(r - a, 0.0), std::max(r - b, 0.0));
+  if (std::max(a, b) >= r) return std::min(a, b);
+  return std::max(r, std::min(a, b)) - length_of(r - a, r - b);
 }
 double rounded_intersection(double a, double b, double r) { return -rounded_union(-a, -b, r); }
 
@@ -154,7 +158,7 @@ double DissectionModel::find_offset() const {
 double DissectionModel::tear_rim(const TearShape& tear, double s, double m, double stretch) const {
   const double b = std::sqrt(tear.area / (pi * tear.aspect)), a = tear.aspect * b;
   const double u = (s - tear.position) * stretch, v = m - tear.across;
-  const double k0 = std::hypot(u / a, v / b), k1 = std::hypot(u / (a * a), v / (b * b));
+  const double k0 = length_of(u / a, v / b), k1 = length_of(u / (a * a), v / (b * b));
   return k1 > 0 ? k0 * (k0 - 1) / k1 : -b;
 }
 
@@ -259,6 +263,10 @@ LabelDomain label_domain(const DissectionModel& model, const DissectionSizes& si
     return h;
   };
   domain.surface_size = [&model, surface](const Point& p) { return surface(model.at(p)); };
+  domain.surface_distance = [&model, surface](const Point& p) {
+    const auto v = model.at(p);
+    return std::min(0.08 * surface(v), 0.2 * v.thickness);
+  };
   domain.volume_size = [&model, surface, sizes](const Point& p, int label) {
     const auto v = model.at(p);
     const double h = surface(v);

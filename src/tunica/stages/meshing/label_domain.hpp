@@ -25,7 +25,7 @@ struct LabelDomain {
   std::vector<std::vector<Point>> curves;   ///< sharp edges as closed polylines (first point = last), kept as edges
   std::function<double(const Point&)> surface_size;       ///< edge length on surfaces and curves [m], > 0
   std::function<double(const Point&, int)> volume_size;   ///< edge length within a label [m], > 0
-  double tolerance = 0.08;  ///< distance of triangles from the surface, as a share of the edge length
+  std::function<double(const Point&)> surface_distance;   ///< of the triangles from the surface [m], > 0
 };
 
 }  // namespace tunica::stages::meshing

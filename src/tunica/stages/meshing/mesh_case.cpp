@@ -7,8 +7,10 @@
 
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/mesh/simvascular.hpp"
+#include "tunica/stages/manifest.hpp"
 #include "tunica/stages/meshing/assemble.hpp"
 #include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/stages/meshing/improve.hpp"
 #include "tunica/stages/meshing/mesh_report.hpp"
 #include "tunica/stages/meshing/tetrahedralise.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
@@ -126,13 +128,16 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
     else
       phases.tell(state);
   };
-  const Tetrahedra mesh = tetrahedralise(label_domain(model, sizes), {}, follow);
+  const LabelDomain domain = label_domain(model, sizes);
+  Tetrahedra mesh = tetrahedralise(domain, follow);
+  phases.begin("shapes");
+  improve(mesh, projection(domain), {}, [&](const std::string& state) { phases.tell(state); });
   phases.begin("regions and faces");
   const auto faces = sort_surface(mesh, model.openings());
   const auto regions = find_wall_regions(mesh, make_caps(faces, model.openings()), {});
   auto data = assemble(mesh, model.openings(), faces, regions);
   phases.end();
-  const auto report = mesh_report({data, mesh, phases.seconds});
+  const auto report = mesh_report({data, mesh, phases.seconds, peak_memory()});
   return {std::move(data), report.dump(2) + "\n", report_text(report)};
 }
 

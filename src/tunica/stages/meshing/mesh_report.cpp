@@ -10,7 +10,6 @@
 #include <unordered_set>
 
 #include "tunica/mesh/quality.hpp"
-#include "tunica/stages/manifest.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -205,7 +204,7 @@ nlohmann::json mesh_report(const ReportInput& input) {
     total += seconds;
   }
   report["seconds"]["total"] = total;
-  report["peak_memory_mb"] = peak_memory() / 1e6;
+  report["peak_memory_mb"] = input.peak_memory / 1e6;
   return report;
 }
 

@@ -39,6 +39,7 @@ struct ReportInput {
   const mesh::MeshData& data;
   const Tetrahedra& mesh;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase
+  double peak_memory = 0;                               ///< byte
 };
 nlohmann::json mesh_report(const ReportInput& input);
 /// The same for the terminal.

@@ -9,7 +9,6 @@
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_domain_with_polyline_features_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/exude_mesh_3.h>
 #include <CGAL/make_mesh_3.h>
 #include <fmt/format.h>
 
@@ -17,7 +16,6 @@
 #include <chrono>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "tunica/base/error.hpp"
 
@@ -64,7 +62,7 @@ struct SurfaceDistance {
   using FT = double;
   const LabelDomain& domain;
   FT operator()(const Kernel::Point_3& p, int, const typename Domain::Index&) const {
-    return domain.tolerance * domain.surface_size(point(p));
+    return domain.surface_distance(point(p));
   }
 };
 template <class Domain>
@@ -76,11 +74,6 @@ struct VolumeSize {
     return domain.volume_size(point(p), boost::get<typename Domain::Subdomain_index>(index));
   }
 };
-
-/// Points on every surface, found by walking a lattice along one axis and bisecting where the label changes. Thin sheets
-/// are then known to the refinement before it starts. No two are closer than `spacing` local sizes, and none is near a
-/// curve, whose protecting balls must stay empty.
-std::vector<Point> surface_samples(const LabelDomain& domain, double spacing);
 
 struct Key {
   std::int64_t i, j, k;
@@ -126,8 +119,11 @@ Point bisect(const LabelDomain& domain, Point a, Point b, int label_a) {
   return 0.5 * (a + b);
 }
 
+/// Points on every surface, found by walking a lattice along one axis and bisecting where the label changes. Thin sheets
+/// are then known to the refinement before it starts. No two are closer than `spacing` local sizes, and none is near a
+/// curve, whose protecting balls must stay empty.
 std::vector<Point> surface_samples(const LabelDomain& domain, double spacing) {
-  constexpr double line_spacing = 1.5e-3, step = 4e-4;  // m: lines between samples, and steps along a line
+  constexpr double line_spacing = 2e-3, step = 5e-4;  // m: lines between samples, and steps along a line
   const Point extent = domain.box.high - domain.box.low;
   const auto count = [&](int i, double h) { return static_cast<int>(std::ceil(extent[i] / h)); };
   Sparse sparse(1e-3);
@@ -204,8 +200,7 @@ class Pace {
 };
 
 template <class Domain>
-Tetrahedra refine(const Domain& cgal_domain, const LabelDomain& domain, const TetrahedraliseOptions& options,
-                  const MeshingProgress& progress) {
+Tetrahedra refine(const Domain& cgal_domain, const LabelDomain& domain, const MeshingProgress& progress) {
   using Triangulation = typename CGAL::Mesh_triangulation_3<Domain>::type;
   using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, typename Domain::Corner_index,
                                                           typename Domain::Curve_index>;
@@ -230,18 +225,13 @@ Tetrahedra refine(const Domain& cgal_domain, const LabelDomain& domain, const Te
     mesher.one_step();
     pace([&] { progress("refinement", fmt::format("{} points", complex.triangulation().number_of_vertices())); });
   }
-  if (options.exude_seconds > 0) {
-    progress("slivers", "");
-    CGAL::exude_mesh_3(complex, p::time_limit = options.exude_seconds);
-  }
   return extract(complex);
 }
 
 }  // namespace
 
-Tetrahedra tetrahedralise(const LabelDomain& domain, const TetrahedraliseOptions& options,
-                          const MeshingProgress& progress) {
-  Tetrahedra mesh = refine(make_domain(domain), domain, options, progress);
+Tetrahedra tetrahedralise(const LabelDomain& domain, const MeshingProgress& progress) {
+  Tetrahedra mesh = refine(make_domain(domain), domain, progress);
   if (mesh.elements.empty()) throw SolverError("meshing made no element: is the label 0 everywhere?");
   return mesh;
 }

@@ -11,12 +11,8 @@ namespace tunica::stages::meshing {
 /// Told when a phase begins and every second or so within it: name, numbers so far.
 using MeshingProgress = std::function<void(const std::string& phase, const std::string& state)>;
 
-struct TetrahedraliseOptions {
-  double exude_seconds = 60;  ///< limit of the sliver exudation; 0: leave it out
-};
-
-/// Meshes all labels of `domain` at once. Deterministic. Throws SolverError when no element results.
-Tetrahedra tetrahedralise(const LabelDomain& domain, const TetrahedraliseOptions& options,
-                          const MeshingProgress& progress);
+/// Meshes all labels of `domain` at once. Deterministic. There are slivers in the result, which improve() takes out
+/// faster than CGAL's exudation. Throws SolverError when no element results.
+Tetrahedra tetrahedralise(const LabelDomain& domain, const MeshingProgress& progress);
 
 }  // namespace tunica::stages::meshing

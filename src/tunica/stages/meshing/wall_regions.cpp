@@ -296,6 +296,25 @@ void spread(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adj
     }
 }
 
+/// Takes the teeth out of the borders: an element most of whose neighbours are of one other region joins it.
+void smooth_borders(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adjacent,
+                    std::vector<WallRegion>& regions) {
+  constexpr int sweeps = 6;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (Index e = 0; e < std::ssize(mesh.elements); ++e) {
+      if (mesh.labels[e] == lumen_label) continue;
+      std::array<int, 4> count{};
+      int neighbours_in_wall = 0;
+      for (const auto other : adjacent[e])
+        if (other >= 0 && mesh.labels[other] != lumen_label) {
+          ++count[static_cast<int>(regions[other])];
+          ++neighbours_in_wall;
+        }
+      const auto most = std::max_element(count.begin(), count.end());
+      if (2 * *most > neighbours_in_wall) regions[e] = static_cast<WallRegion>(most - count.begin());
+    }
+}
+
 }  // namespace
 
 WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& caps, const WallRegionOptions& options) {
@@ -322,6 +341,7 @@ WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& ca
     for (const auto e : p.elements) ++votes[e][static_cast<int>(region)];
   }
   spread(mesh, adjacent, votes, result.of_element);
+  smooth_borders(mesh, adjacent, result.of_element);
   return result;
 }
 
