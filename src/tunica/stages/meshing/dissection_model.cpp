@@ -259,7 +259,6 @@ LabelDomain label_domain(const DissectionModel& model, const DissectionSizes& si
     double h = sizes.edge;
     const double at_tear = sizes.at_tears * sizes.edge;
     h = std::min(h, at_tear + 0.35 * std::max(0.0, std::abs(v.tear) - 1 * mm));
-    if (sizes.through_wall > 0) h = std::min(h, 1.25 * v.thickness / sizes.through_wall);
     return h;
   };
   domain.surface_size = [&model, surface](const Point& p) { return surface(model.at(p)); };

@@ -105,7 +105,6 @@ struct DissectionSizes {
   double edge = 2.5 * mm;           ///< on the surfaces
   double at_tears = 0.6;            ///< share of `edge` near the rims of the tears
   double in_lumen = 1.8;            ///< multiple of `edge` in the middle of wide lumen
-  double through_wall = 0;          ///< elements through wall and flap that the size must allow; 0: no demand
 };
 LabelDomain label_domain(const DissectionModel& model, const DissectionSizes& sizes);
 

@@ -149,6 +149,7 @@ Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOp
   Improvement done;
   const double wanted = std::sin(options.wanted_dihedral * std::numbers::pi / 180);
   Smoother smoother(local, project, 1.1 * wanted);
+  const ReconnectOptions reconnection{.keep_layers = options.keep_layers};
   std::size_t before = 0;
   for (; done.passes < options.most_passes; ++done.passes) {
     const auto bad = worse_than(local, wanted);
@@ -161,9 +162,9 @@ Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOp
       const auto corners = local.corners(c);
       for (const Node n : corners) done.moves += smoother.smooth(n);
       if (local.sine(c) >= wanted) continue;
-      if (reconnect(local, c)) {
+      if (reconnect(local, c, reconnection)) {
         ++done.reconnections;
-      } else if (collapse(local, c)) {
+      } else if (collapse(local, c, reconnection)) {
         ++done.collapses;
       } else {
         continue;

@@ -17,6 +17,7 @@ Projection projection(const LabelDomain& domain);
 struct ImproveOptions {
   double wanted_dihedral = 15;  ///< elements with a smaller (or larger than 180 - this) angle are worked on [degrees]
   int most_passes = 8;
+  bool keep_layers = false;  ///< make no edge from one side of the wall to the other
 };
 
 struct Improvement {

@@ -11,6 +11,7 @@
 #include "tunica/stages/meshing/assemble.hpp"
 #include "tunica/stages/meshing/dissection_model.hpp"
 #include "tunica/stages/meshing/improve.hpp"
+#include "tunica/stages/meshing/layers.hpp"
 #include "tunica/stages/meshing/mesh_report.hpp"
 #include "tunica/stages/meshing/tetrahedralise.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
@@ -70,6 +71,12 @@ std::vector<Cap> make_caps(const SurfaceFaces& faces, const std::vector<Opening>
   return caps;
 }
 
+WallLayers find_layers(const Tetrahedra& mesh, const std::vector<Opening>& openings) {
+  auto faces = sort_surface(mesh, openings);
+  faces.interface.insert(faces.interface.end(), faces.outer.begin(), faces.outer.end());
+  return wall_layers(mesh, faces.interface);
+}
+
 /// The `meshes:` section of a case on this mesh, paths relative to the folder that it lies in.
 std::string case_section(const std::vector<std::string>& wall_regions) {
   std::string numbers;
@@ -91,9 +98,9 @@ std::string case_section(const std::vector<std::string>& wall_regions) {
 }  // namespace
 
 double edge_length(const Size& size) {
-  if (std::holds_alternative<Coarse>(size)) return 4.2 * mm;
-  if (std::holds_alternative<Medium>(size)) return 2.2 * mm;
-  if (std::holds_alternative<Full>(size)) return 1.2 * mm;
+  if (std::holds_alternative<Coarse>(size)) return 5 * mm;
+  if (std::holds_alternative<Medium>(size)) return 1.85 * mm;
+  if (std::holds_alternative<Full>(size)) return 1.0 * mm;
   return std::get<double>(size);
 }
 
@@ -131,13 +138,19 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
   const LabelDomain domain = label_domain(model, sizes);
   Tetrahedra mesh = tetrahedralise(domain, follow);
   phases.begin("shapes");
-  improve(mesh, projection(domain), {}, [&](const std::string& state) { phases.tell(state); });
+  const auto tell = [&](const std::string& state) { phases.tell(state); };
+  improve(mesh, projection(domain), {}, tell);
+  if (mesh_case.elements_through_wall > 1) {
+    phases.begin("layers");
+    tell(fmt::format("{} nodes added", double_layers(mesh, find_layers(mesh, model.openings()).bridges)));
+    improve(mesh, projection(domain), {.keep_layers = true}, tell);
+  }
   phases.begin("regions and faces");
   const auto faces = sort_surface(mesh, model.openings());
   const auto regions = find_wall_regions(mesh, make_caps(faces, model.openings()), {});
   auto data = assemble(mesh, model.openings(), faces, regions);
   phases.end();
-  const auto report = mesh_report({data, mesh, phases.seconds, peak_memory()});
+  const auto report = mesh_report({data, find_layers(mesh, model.openings()), phases.seconds, peak_memory()});
   return {std::move(data), report.dump(2) + "\n", report_text(report)};
 }
 

@@ -134,44 +134,30 @@ Topology topology(const std::vector<Triangle>& triangles) {
   return result;
 }
 
-WallLayers wall_layers(const Tetrahedra& mesh) {
-  constexpr char on_interface = 1, on_outer = 2;
-  std::vector<char> side(mesh.points.size(), 0);
-  std::vector<Edge> on_side;  // edges of the interface or of the outer surface
-  std::vector<bool> ring(mesh.points.size(), false);
-  const auto triangles = surface_triangles(mesh);
-  const auto add = [&](const Triangle& t, char which) {
+WallLayers wall_layers(const Tetrahedra& mesh, const std::vector<Triangle>& sides) {
+  std::vector<bool> on_side(mesh.points.size(), false);
+  std::vector<Edge> side_edges;
+  for (const auto& t : sides)
     for (int a = 0; a < 3; ++a) {
-      side[t[a]] = static_cast<char>(side[t[a]] | which);
-      on_side.push_back(edge(t[a], t[(a + 1) % 3]));
+      on_side[t[a]] = true;
+      side_edges.push_back(edge(t[a], t[(a + 1) % 3]));
     }
-  };
-  for (const auto& t : triangles)
-    if (t.neighbour_label == wall_label) add(t.nodes, on_interface);
-  // Rings at openings are no side of the wall: they have nodes on curves only, or between them. A triangle belongs to
-  // the outer surface unless it touches a ring, which begins at the interface.
-  for (const auto& t : triangles)
-    if (t.label == wall_label) {
-      const bool all_on_curves = mesh.on_curve[t.nodes[0]] && mesh.on_curve[t.nodes[1]] && mesh.on_curve[t.nodes[2]];
-      const bool at_interface = (side[t.nodes[0]] | side[t.nodes[1]] | side[t.nodes[2]]) & on_interface;
-      if (!all_on_curves && !at_interface) add(t.nodes, on_outer);
-    }
-  sort_unique(on_side);
+  sort_unique(side_edges);
   WallLayers layers;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (mesh.labels[e] != wall_label) continue;
     const auto& t = mesh.elements[e];
     for (int a = 0; a < 4; ++a)
       for (int b = a + 1; b < 4; ++b)
-        if (side[t[a]] && side[t[b]]) layers.bridges.push_back(edge(t[a], t[b]));
+        if (on_side[t[a]] && on_side[t[b]]) layers.bridges.push_back(edge(t[a], t[b]));
   }
   sort_unique(layers.bridges);
   std::erase_if(layers.bridges,
-                [&](const Edge& e) { return std::binary_search(on_side.begin(), on_side.end(), e); });
+                [&](const Edge& e) { return std::binary_search(side_edges.begin(), side_edges.end(), e); });
   std::vector<bool> bridged(mesh.points.size(), false);
   for (const auto& e : layers.bridges) bridged[e[0]] = bridged[e[1]] = true;
-  for (std::size_t n = 0; n < side.size(); ++n) {
-    layers.surface_nodes += side[n] != 0;
+  for (std::size_t n = 0; n < on_side.size(); ++n) {
+    layers.surface_nodes += on_side[n];
     layers.bridged_nodes += bridged[n];
   }
   return layers;
@@ -195,7 +181,7 @@ nlohmann::json mesh_report(const ReportInput& input) {
                                {"area_mm2", area(data.points, face.triangles) * 1e6}});
   report["lumen_boundary"] = to_json(topology(boundary(data, mesh::RegionKind::lumen)));
   report["wall_boundary"] = to_json(topology(boundary(data, mesh::RegionKind::wall)));
-  const auto layers = wall_layers(input.mesh);
+  const auto& layers = input.layers;
   report["wall_one_element_thick_percent"] =
       100.0 * static_cast<double>(layers.bridged_nodes) / static_cast<double>(std::max<Index>(1, layers.surface_nodes));
   double total = 0;

@@ -33,11 +33,12 @@ struct WallLayers {
   Index bridged_nodes = 0;  ///< of these, ends of an edge that crosses the wall: one element there
   std::vector<std::array<Index, 2>> bridges;
 };
-WallLayers wall_layers(const Tetrahedra& mesh);
+/// `sides`: triangles of the interface and of the outer surface; rings at openings are no side.
+WallLayers wall_layers(const Tetrahedra& mesh, const std::vector<std::array<Index, 3>>& sides);
 
 struct ReportInput {
   const mesh::MeshData& data;
-  const Tetrahedra& mesh;
+  const WallLayers& layers;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase
   double peak_memory = 0;                               ///< byte
 };

@@ -21,6 +21,7 @@ struct Change {
   std::vector<Cell> old;
   std::vector<LocalMesh::NewCell> fresh;
   double sine = -1;  ///< worst of `fresh`
+  std::array<Node, 2> on_surface{-1, -1};  ///< a new edge that lies on a surface
 };
 
 double worst_of(const LocalMesh& mesh, const std::vector<Cell>& cells) {
@@ -117,11 +118,13 @@ Change remove_edge(const LocalMesh& mesh, Node a, Node b) {
   }
   if (!ring->closed) {
     if (!may_turn(mesh, a, b, nodes.back(), nodes.front(), ring->cells.size() == 1)) return change;
+    change.on_surface = {nodes.back(), nodes.front()};
     change.sine = fill_polygon(mesh, nodes, a, b, mesh.label(ring->cells[0]), change.fresh);
     return change;
   }
   const std::size_t n = nodes.size(), inside = changes[1] - changes[0];
   if (!may_turn(mesh, a, b, nodes[changes[0]], nodes[changes[1]], inside == 1 || inside == n - 1)) return change;
+  change.on_surface = {nodes[changes[0]], nodes[changes[1]]};
   double sine = 1;
   for (int side = 0; side < 2 && sine > 0; ++side) {
     const std::size_t first = changes[side], last = changes[1 - side];
@@ -158,17 +161,48 @@ Change replace_face(const LocalMesh& mesh, Cell cell, int f) {
   return change;
 }
 
-bool worth_it(const LocalMesh& mesh, const Change& change) {
-  return change.sine > 0 && change.sine > least_gain * worst_of(mesh, change.old);
+/// Does the change join nodes of the surfaces of the wall that were not joined before?
+bool makes_bridge(const LocalMesh& mesh, const Change& change) {
+  for (const auto& f : change.fresh) {
+    if (f.label != wall_label) continue;
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) {
+        const Node a = f.corners[i], b = f.corners[j];
+        if (mesh.place(a) == Place::inner || mesh.place(b) == Place::inner) continue;
+        const bool on_surface = (change.on_surface[0] == a && change.on_surface[1] == b) ||
+                                (change.on_surface[0] == b && change.on_surface[1] == a);
+        if (!on_surface && !mesh.is_edge(a, b)) return true;
+      }
+  }
+  return false;
+}
+
+bool worth_it(const LocalMesh& mesh, const Change& change, const ReconnectOptions& options) {
+  return change.sine > 0 && change.sine > least_gain * worst_of(mesh, change.old) &&
+         !(options.keep_layers && makes_bridge(mesh, change));
+}
+
+/// The node `gone` moves into `kept`.
+Change move_into(const LocalMesh& mesh, Node gone, Node kept, double enough) {
+  Change change{mesh.star(gone), {}, 1};
+  for (const Cell c : mesh.star(gone)) {
+    Corners corners = mesh.corners(c);
+    if (std::find(corners.begin(), corners.end(), kept) != corners.end()) continue;
+    std::replace(corners.begin(), corners.end(), gone, kept);
+    change.sine = std::min(change.sine, mesh.cell_sine(corners));
+    if (change.sine <= enough) break;
+    change.fresh.push_back({corners, mesh.label(c)});
+  }
+  return change;
 }
 
 }  // namespace
 
-bool reconnect(LocalMesh& mesh, Cell cell) {
+bool reconnect(LocalMesh& mesh, Cell cell, const ReconnectOptions& options) {
   const Corners k = mesh.corners(cell);
   Change best;
   const auto offer = [&](Change&& change) {
-    if (change.sine > best.sine && worth_it(mesh, change)) best = std::move(change);
+    if (change.sine > best.sine && worth_it(mesh, change, options)) best = std::move(change);
   };
   for (int a = 0; a < 4; ++a)
     for (int b = a + 1; b < 4; ++b) offer(remove_edge(mesh, k[a], k[b]));
@@ -178,26 +212,36 @@ bool reconnect(LocalMesh& mesh, Cell cell) {
   return true;
 }
 
-bool collapse(LocalMesh& mesh, Cell cell) {
+bool collapse(LocalMesh& mesh, Cell cell, const ReconnectOptions& options) {
   const Corners k = mesh.corners(cell);
   Change best;
   for (const Node gone : k) {
     if (mesh.place(gone) != Place::inner) continue;
     for (const Node kept : k) {
       if (kept == gone) continue;
-      Change change{mesh.star(gone), {}, 1};
-      for (const Cell c : mesh.star(gone)) {
-        Corners corners = mesh.corners(c);
-        if (std::find(corners.begin(), corners.end(), kept) != corners.end()) continue;
-        std::replace(corners.begin(), corners.end(), gone, kept);
-        change.sine = std::min(change.sine, mesh.cell_sine(corners));
-        if (change.sine <= best.sine) break;
-        change.fresh.push_back({corners, mesh.label(c)});
-      }
-      if (change.sine > best.sine && worth_it(mesh, change)) best = std::move(change);
+      Change change = move_into(mesh, gone, kept, best.sine);
+      if (change.sine > best.sine && worth_it(mesh, change, options)) best = std::move(change);
     }
   }
   if (best.sine <= 0) return false;
+  mesh.replace(best.old, best.fresh);
+  return true;
+}
+
+bool merge_into_neighbour(LocalMesh& mesh, Node node, double least_sine) {
+  if (mesh.place(node) != Place::inner) return false;
+  std::vector<Node> others;
+  for (const Cell c : mesh.star(node))
+    for (const Node n : mesh.corners(c))
+      if (n != node && mesh.place(n) == Place::inner) others.push_back(n);
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  Change best;
+  for (const Node kept : others) {
+    Change change = move_into(mesh, node, kept, best.sine);
+    if (change.sine > best.sine) best = std::move(change);
+  }
+  if (best.sine <= 0 || best.sine < std::min(least_sine, worst_of(mesh, best.old))) return false;
   mesh.replace(best.old, best.fresh);
   return true;
 }
