@@ -17,6 +17,10 @@ Point turned(const Point& v, const Point& axis, double angle) {
 }  // namespace
 
 void Centreline::append(double length, double angle, double towards) {
+  if (angle < 0) {
+    angle = -angle;
+    towards += std::numbers::pi;
+  }
   Piece piece{end_, end_, length_, length, 0, {}, {}, std::cos(towards), std::sin(towards)};
   piece.to_centre = piece.cos_towards * end_.e1 + piece.sin_towards * end_.e2;
   piece.binormal = cross(end_.tangent, piece.to_centre);
@@ -64,13 +68,14 @@ Centreline::Closest Centreline::closest(const Point& p) const {
       along = angle * piece.radius;
       toward = piece.radius - std::sqrt(x * x + y * y);
     }
-    const double beyond = std::max(-along, along - piece.length);
+    double beyond = std::max(-along, along - piece.length);
     const double clamped = std::clamp(along, 0.0, piece.length);
     double distance = std::sqrt(toward * toward + aside * aside);
     if (beyond > 0) {
       const Frame& end = along < 0 ? piece.first : piece.last;
       const Point e = p - end.origin;
       distance = norm(e);
+      beyond = along < 0 ? -dot(e, end.tangent) : dot(e, end.tangent);
       toward = piece.cos_towards * dot(e, end.e1) + piece.sin_towards * dot(e, end.e2);
     }
     if (distance >= best.distance) continue;

@@ -151,6 +151,7 @@ std::vector<Point> surface_samples(const LabelDomain& domain, double spacing) {
 template <class Complex, class Domain>
 void insert_samples(Complex& complex, const Domain& cgal_domain, const LabelDomain& domain) {
   const auto samples = surface_samples(domain, 2.0);
+  if (samples.empty()) throw SolverError("meshing: the label is the same everywhere, there is no surface");
   auto& triangulation = complex.triangulation();
   using Weighted = typename Complex::Triangulation::Weighted_point;
   for (const auto& p : samples) {
@@ -231,9 +232,7 @@ Tetrahedra refine(const Domain& cgal_domain, const LabelDomain& domain, const Me
 }  // namespace
 
 Tetrahedra tetrahedralise(const LabelDomain& domain, const MeshingProgress& progress) {
-  Tetrahedra mesh = refine(make_domain(domain), domain, progress);
-  if (mesh.elements.empty()) throw SolverError("meshing made no element: is the label 0 everywhere?");
-  return mesh;
+  return refine(make_domain(domain), domain, progress);
 }
 
 }  // namespace tunica::stages::meshing

@@ -12,7 +12,7 @@ namespace tunica::stages::meshing {
 using MeshingProgress = std::function<void(const std::string& phase, const std::string& state)>;
 
 /// Meshes all labels of `domain` at once. Deterministic. There are slivers in the result, which improve() takes out
-/// faster than CGAL's exudation. Throws SolverError when no element results.
+/// faster than CGAL's exudation. Throws SolverError when there is no surface in the box.
 Tetrahedra tetrahedralise(const LabelDomain& domain, const MeshingProgress& progress);
 
 }  // namespace tunica::stages::meshing

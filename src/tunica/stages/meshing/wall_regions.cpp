@@ -32,7 +32,7 @@ std::pair<int, double> leave(const Tetrahedra& mesh, Index element, const Point&
     const Point& a = mesh.points[n[0]];
     const Point normal = cross(mesh.points[n[1]] - a, mesh.points[n[2]] - a);
     const double speed = dot(normal, direction);
-    if (speed <= 0) continue;
+    if (speed <= 1e-9 * norm(normal)) continue;  // behind, or along the face
     const double length = dot(normal, a - from) / speed;
     if (length < nearest) {
       nearest = length;
@@ -276,17 +276,10 @@ std::vector<bool> find_branches(const Tetrahedra& mesh, const std::vector<std::a
 
 /// Elements that no passage crossed take the region of a neighbour that has one, those nearest to one first.
 void spread(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adjacent,
-            std::vector<std::array<int, 4>>& votes, std::vector<WallRegion>& regions) {
+            std::vector<bool> known, std::vector<WallRegion>& regions) {
   std::queue<Index> queue;
-  std::vector<bool> known(mesh.elements.size(), false);
-  for (Index e = 0; e < std::ssize(mesh.elements); ++e) {
-    if (mesh.labels[e] == lumen_label) continue;
-    const auto most = std::max_element(votes[e].begin(), votes[e].end());
-    if (*most == 0) continue;
-    regions[e] = static_cast<WallRegion>(most - votes[e].begin());
-    known[e] = true;
-    queue.push(e);
-  }
+  for (Index e = 0; e < std::ssize(mesh.elements); ++e)
+    if (known[e]) queue.push(e);
   for (; !queue.empty(); queue.pop())
     for (const auto other : adjacent[queue.front()]) {
       if (other < 0 || known[other] || mesh.labels[other] == lumen_label) continue;
@@ -299,20 +292,23 @@ void spread(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adj
 /// Takes the teeth out of the borders: an element most of whose neighbours are of one other region joins it.
 void smooth_borders(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adjacent,
                     std::vector<WallRegion>& regions) {
-  constexpr int sweeps = 6;
-  for (int sweep = 0; sweep < sweeps; ++sweep)
+  constexpr int sweeps = 4;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    // All at once: one after the other, a border could run through the whole wall.
+    const auto before = regions;
     for (Index e = 0; e < std::ssize(mesh.elements); ++e) {
       if (mesh.labels[e] == lumen_label) continue;
       std::array<int, 4> count{};
       int neighbours_in_wall = 0;
       for (const auto other : adjacent[e])
         if (other >= 0 && mesh.labels[other] != lumen_label) {
-          ++count[static_cast<int>(regions[other])];
+          ++count[static_cast<int>(before[other])];
           ++neighbours_in_wall;
         }
       const auto most = std::max_element(count.begin(), count.end());
       if (2 * *most > neighbours_in_wall) regions[e] = static_cast<WallRegion>(most - count.begin());
     }
+  }
 }
 
 }  // namespace
@@ -330,7 +326,9 @@ WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& ca
                      SignedLaplacian(ties, held).solve()};
   const auto in_branch = find_branches(mesh, adjacent, caps, options.branch_widening);
 
-  std::vector<std::array<int, 4>> votes(mesh.elements.size(), {0, 0, 0, 0});
+  // Of the passages through an element the shortest one counts: from the rim of a tear some run along the flap.
+  std::vector<double> shortest(mesh.elements.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> known(mesh.elements.size(), false);
   for (const auto& p : passages) {
     const double here = mean_side(result.side, p.from.nodes);
     const bool flap = p.to_lumen && p.length <= options.thickest_flap && here * mean_side(result.side, p.to) < 0;
@@ -338,9 +336,14 @@ WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& ca
                               : in_branch[p.from.element] ? WallRegion::branches
                               : here < 0                  ? WallRegion::false_lumen_wall
                                                           : WallRegion::true_lumen_wall;
-    for (const auto e : p.elements) ++votes[e][static_cast<int>(region)];
+    for (const auto e : p.elements) {
+      if (p.length >= shortest[e]) continue;
+      shortest[e] = p.length;
+      result.of_element[e] = region;
+      known[e] = true;
+    }
   }
-  spread(mesh, adjacent, votes, result.of_element);
+  spread(mesh, adjacent, std::move(known), result.of_element);
   smooth_borders(mesh, adjacent, result.of_element);
   return result;
 }
