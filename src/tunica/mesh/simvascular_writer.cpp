@@ -36,8 +36,8 @@ void write(const fs::path& path, Data* data) {
 
 /// Nodes and elements of one kind of region, numbered from 0.
 struct Part {
-  std::vector<Index> node, element;                       ///< numbers in the part, -1: not in it
-  std::vector<Index> nodes, elements;                     ///< numbers in the whole
+  std::vector<Index> node, element;                        ///< numbers in the part, -1: not in it
+  std::vector<Index> nodes, elements;                      ///< numbers in the whole
   std::vector<std::pair<std::string, Index>> region_ends;  ///< name, end in `elements`
 };
 

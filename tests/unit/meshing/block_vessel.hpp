@@ -1,5 +1,5 @@
-// A square duct of 1 mm cells for tests: wall one cell thick around a lumen, which a flap of one cell divides into a true
-// lumen (small x) and a false one (large x), closed at both ends and joined to the true one by one hole.
+// A square duct of 1 mm cells for tests: wall one cell thick around a lumen, which a flap of one cell divides into a
+// true lumen (small x) and a false one (large x), closed at both ends and joined to the true one by one hole.
 #pragma once
 
 #include "tunica/mesh/generate.hpp"
@@ -9,7 +9,7 @@
 namespace tunica::stages::meshing::test {
 
 struct BlockVessel {
-  int across = 9, along = 24;       ///< cells
+  int across = 9, along = 24;          ///< cells
   int flap_at = 4, from = 6, to = 18;  ///< cell of the flap in x, and its extent in z
   bool hole = true;
 };
@@ -25,15 +25,16 @@ inline int block_label(const BlockVessel& v, int i, int j, int k) {
 
 inline Tetrahedra block_vessel(const BlockVessel& v) {
   const double h = 1e-3;
-  const auto box = mesh::box(v.across, v.across, v.along, {{v.across * h, v.across * h, v.along * h}},
-                             mesh::RegionKind::wall);
+  const auto box =
+      mesh::box(v.across, v.across, v.along, {{v.across * h, v.across * h, v.along * h}}, mesh::RegionKind::wall);
   Tetrahedra mesh;
   mesh.points = box.points;
   mesh.elements = box.tetrahedra;
   for (const auto& t : mesh.elements) {
     Point c{{0, 0, 0}};
     for (const auto n : t) c = c + 0.25 * mesh.points[n];
-    mesh.labels.push_back(block_label(v, static_cast<int>(c[0] / h), static_cast<int>(c[1] / h), static_cast<int>(c[2] / h)));
+    mesh.labels.push_back(
+        block_label(v, static_cast<int>(c[0] / h), static_cast<int>(c[1] / h), static_cast<int>(c[2] / h)));
   }
   mesh.on_curve.assign(mesh.points.size(), false);
   return mesh;

@@ -56,12 +56,14 @@ TEST(ParametricDissection, ImpossibleOnesAreRefusedWithTheReason) {
       {"iliacs: {radius: 9 mm}", "iliacs.radius"},
       {"iliacs: {angle: 15 deg, length: 20 mm}", "apart"},
   };
-  for (const auto& [yaml, reason] : cases) EXPECT_NE(refusal(yaml).find(reason), std::string::npos) << yaml << "\n" << refusal(yaml);
+  for (const auto& [yaml, reason] : cases)
+    EXPECT_NE(refusal(yaml).find(reason), std::string::npos) << yaml << "\n" << refusal(yaml);
 }
 
 TEST(ParametricDissection, RangesAndUnitsAreChecked) {
   EXPECT_NE(refusal("flap: {thickness: 1.75}").find("unit"), std::string::npos);
-  EXPECT_NE(refusal("aorta: {wall_thickness: 9 mm}").find("<= 0.005 m"), std::string::npos) << refusal("aorta: {wall_thickness: 9 mm}");
+  EXPECT_NE(refusal("aorta: {wall_thickness: 9 mm}").find("<= 0.005 m"), std::string::npos)
+      << refusal("aorta: {wall_thickness: 9 mm}");
   EXPECT_NE(refusal("coeliac: {}").find("celiac"), std::string::npos);
 }
 
@@ -94,7 +96,8 @@ TEST(DissectionModel, FlapHasItsThicknessAndSharesTheCrossSection) {
   const DissectionModel model(shape);
   const double s = 265e-3, R = shape.aorta.dissected_radius;  // between the tears
   const Frame f = model.centreline().frame(s);
-  const double turn = shape.flap.true_lumen_direction + 2 * pi * shape.flap.turns * (s - shape.flap.start) / shape.flap.length;
+  const double turn =
+      shape.flap.true_lumen_direction + 2 * pi * shape.flap.turns * (s - shape.flap.start) / shape.flap.length;
   const Point n = std::cos(turn) * f.e1 + std::sin(turn) * f.e2;
   // Along a diameter: wall, false lumen, flap, true lumen, wall.
   double flap = 0, first = 1, last = -1;
@@ -121,7 +124,8 @@ TEST(DissectionModel, FlapHasItsThicknessAndSharesTheCrossSection) {
   // The walls: over the false lumen and over the true one.
   const auto thickness = [&](double sign) {
     double sum = 0;
-    for (double x = 0.5 * R; x < R + 5e-3; x += step) sum += model.label(f.origin + (sign * x) * n) == wall_label ? step : 0;
+    for (double x = 0.5 * R; x < R + 5e-3; x += step)
+      sum += model.label(f.origin + (sign * x) * n) == wall_label ? step : 0;
     return sum;
   };
   EXPECT_NEAR(thickness(-1), shape.flap.false_lumen_wall_thickness, 5e-6);
@@ -134,7 +138,8 @@ TEST(DissectionModel, TearsHaveTheirAreas) {
   const DissectionModel model(shape);
   const auto on_middle = [&](double s, double m) {
     const Frame f = model.centreline().frame(s);
-    const double turn = shape.flap.true_lumen_direction + 2 * pi * shape.flap.turns * (s - shape.flap.start) / shape.flap.length;
+    const double turn =
+        shape.flap.true_lumen_direction + 2 * pi * shape.flap.turns * (s - shape.flap.start) / shape.flap.length;
     const Point across = std::cos(turn + pi / 2) * f.e1 + std::sin(turn + pi / 2) * f.e2;
     const Point n = std::cos(turn) * f.e1 + std::sin(turn) * f.e2;
     double low = -10e-3, high = 10e-3;

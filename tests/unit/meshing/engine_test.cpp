@@ -59,9 +59,9 @@ TEST(Tetrahedralise, TorusInAShell) {
 TEST(Tetrahedralise, RimsOfACutTubeAreKept) {
   // A cylinder between two planes; its rims are curves.
   const double r = 4e-3, half = 5e-3;
-  auto domain = body(
-      [=](const Point& p) { return std::hypot(p[0], p[1]) < r && std::abs(p[2]) < half ? lumen_label : outside; }, 7e-3,
-      1.5e-3);
+  auto domain =
+      body([=](const Point& p) { return std::hypot(p[0], p[1]) < r && std::abs(p[2]) < half ? lumen_label : outside; },
+           7e-3, 1.5e-3);
   for (const double z : {-half, half}) {
     auto& rim = domain.curves.emplace_back();
     for (int k = 0; k <= 100; ++k)

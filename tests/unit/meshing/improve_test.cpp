@@ -94,8 +94,12 @@ TEST(Layers, NoEdgeCrossesTheWallAfterwards) {
   EXPECT_NEAR(test::volume(mesh, wall_label), wall, 1e-15);
   EXPECT_GT(worst(mesh), 0);
   // The optimiser keeps it so.
-  const LabelDomain none{.label = [](const Point&) { return outside; }, .box = {}, .curves = {}, .surface_size = {},
-                         .volume_size = {}, .surface_distance = {}};
+  const LabelDomain none{.label = [](const Point&) { return outside; },
+                         .box = {},
+                         .curves = {},
+                         .surface_size = {},
+                         .volume_size = {},
+                         .surface_distance = {}};
   improve(mesh, projection(none), {.wanted_dihedral = 40, .keep_layers = true}, [](const std::string&) {});
   EXPECT_EQ(wall_layers(mesh, sides()).bridged_nodes, 0);
 }

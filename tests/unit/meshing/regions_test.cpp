@@ -4,7 +4,6 @@
 #include <set>
 
 #include "block_vessel.hpp"
-#include "unit/mesh/temporary_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/interface.hpp"
@@ -12,6 +11,7 @@
 #include "tunica/stages/meshing/assemble.hpp"
 #include "tunica/stages/meshing/mesh_report.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
+#include "unit/mesh/temporary_folder.hpp"
 
 namespace tunica::stages::meshing {
 namespace {
@@ -135,7 +135,9 @@ TEST(SimVascularWriter, FilesReadBackAsTheSameMesh) {
   options.regions.emplace().array = "region";
   for (std::size_t r = 0; r < names.size(); ++r) options.regions->names.emplace(static_cast<int>(r) + 1, names[r]);
   parts.push_back(mesh::read_simvascular(folder.path() / "wall", mesh::RegionKind::wall, "wall", options));
-  const mesh::Interface interface { {lumen_interface}, {wall_interface} };
+  const mesh::Interface interface {
+    {lumen_interface}, { wall_interface }
+  };
   const auto joined = mesh::join(parts, std::span(&interface, 1), {});
   ASSERT_EQ(joined.data.points.size(), data.points.size());
   for (std::size_t n = 0; n < data.points.size(); ++n)

@@ -73,9 +73,10 @@ SurfaceFaces sort_surface(const Tetrahedra& mesh, const std::vector<Opening>& op
       astray.push_back(mesh::centroid(mesh.points, t.nodes));
   }
   if (!astray.empty())
-    throw SolverError(fmt::format("meshing: {} triangles of the lumen lie on the outside, where there is no opening: {}; "
-                                  "mesh finer, or give a thicker wall",
-                                  astray.size(), mesh::list_places(astray)));
+    throw SolverError(
+        fmt::format("meshing: {} triangles of the lumen lie on the outside, where there is no opening: {}; "
+                    "mesh finer, or give a thicker wall",
+                    astray.size(), mesh::list_places(astray)));
   for (std::size_t o = 0; o < openings.size(); ++o)
     if (faces.caps[o].empty() || faces.rings[o].empty())
       throw SolverError(fmt::format("meshing: the opening {} has no {}; mesh finer", openings[o].name,

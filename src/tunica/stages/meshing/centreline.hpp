@@ -18,8 +18,8 @@ class Centreline {
   /// Starts at `start`; `start.tangent`, `e1`, `e2` are orthonormal.
   explicit Centreline(const Frame& start) : end_(start) {}
 
-  /// Goes on by `length` [m] > 0, bending by `angle` [rad] towards the direction at `towards` [rad] from e1; an angle of
-  /// 0 is a straight line.
+  /// Goes on by `length` [m] > 0, bending by `angle` [rad] towards the direction at `towards` [rad] from e1; an angle
+  /// of 0 is a straight line.
   void append(double length, double angle = 0, double towards = 0);
 
   double length() const { return length_; }
@@ -40,8 +40,11 @@ class Centreline {
     double s, length, radius;  ///< radius of curvature [m], 0: straight
     Point to_centre, binormal;
     double cos_towards, sin_towards;
+    Point middle;  ///< of a ball that holds the piece
+    double reach;
   };
   Frame on_piece(const Piece& piece, double along) const;
+  void look_at(const Piece& piece, const Point& p, Closest& best) const;
 
   std::vector<Piece> pieces_;
   Frame end_;

@@ -42,8 +42,8 @@ Centreline make_centreline(const AortaShape& a) {
 }
 
 double aorta_radius_at(const ParametricDissection& shape, double s) {
-  const auto &a = shape.aorta;
-  const auto &f = shape.flap;
+  const auto& a = shape.aorta;
+  const auto& f = shape.flap;
   const double knots[][2] = {{a.ascending_length, a.ascending_radius},
                              {f.start, a.arch_radius},
                              {f.start + f.taper, a.dissected_radius},
@@ -89,8 +89,8 @@ DissectionModel::DissectionModel(const ParametricDissection& shape)
 
   const double length = centreline_.length();
   const Frame first = centreline_.frame(0), last = centreline_.frame(length);
-  openings_.push_back({"inlet", first.origin, -1.0 * first.tangent, aorta_radius(0),
-                       aorta_radius(0) + shape_.aorta.wall_thickness});
+  openings_.push_back(
+      {"inlet", first.origin, -1.0 * first.tangent, aorta_radius(0), aorta_radius(0) + shape_.aorta.wall_thickness});
   for (const auto& [name, branch] : shape_.branches()) {
     const Frame f = centreline_.frame(branch.position);
     const Point away = std::cos(branch.angle) * f.e1 + std::sin(branch.angle) * f.e2;
@@ -104,10 +104,9 @@ DissectionModel::DissectionModel(const ParametricDissection& shape)
     Point aside = left - dot(left, last.tangent) * last.tangent;
     aside = (1 / norm(aside)) * aside;
     for (const double sign : {1.0, -1.0}) {
-      const Point axis =
-          std::cos(shape_.iliacs->angle) * last.tangent + sign * std::sin(shape_.iliacs->angle) * aside;
-      add_tube(sign > 0 ? "left_iliac" : "right_iliac", last.origin, axis,
-               shape_.iliacs->length + aorta_radius(length), shape_.iliacs->radius, shape_.iliacs->wall_thickness);
+      const Point axis = std::cos(shape_.iliacs->angle) * last.tangent + sign * std::sin(shape_.iliacs->angle) * aside;
+      add_tube(sign > 0 ? "left_iliac" : "right_iliac", last.origin, axis, shape_.iliacs->length + aorta_radius(length),
+               shape_.iliacs->radius, shape_.iliacs->wall_thickness);
     }
   } else {
     openings_.push_back({"abdominal_aorta", last.origin, last.tangent, aorta_radius(length),
@@ -175,8 +174,7 @@ DissectionModel::Sheet DissectionModel::sheet(const Centreline::Closest& c, doub
   const double slope_m = -2 * bow * m / (radius * radius);
   const double slope_s = w_slope * (offset_ - joined + f.bow) - 2 * pi * f.turns / f.length * m;
   const double side = (n - middle) / std::sqrt(1 + slope_m * slope_m + slope_s * slope_s);
-  const double rim =
-      std::min(tear_rim(f.entry, c.s, m, entry_stretch_), tear_rim(f.exit, c.s, m, exit_stretch_));
+  const double rim = std::min(tear_rim(f.entry, c.s, m, entry_stretch_), tear_rim(f.exit, c.s, m, exit_stretch_));
   return {rounded_intersection(std::abs(side) - 0.5 * f.thickness, -rim, f.rim_fillet), rim, side, w};
 }
 

@@ -102,9 +102,9 @@ class DissectionModel {
 
 /// The body for the meshing engine, with mesh sizes.
 struct DissectionSizes {
-  double edge = 2.5 * mm;           ///< on the surfaces
-  double at_tears = 0.6;            ///< share of `edge` near the rims of the tears
-  double in_lumen = 1.8;            ///< multiple of `edge` in the middle of wide lumen
+  double edge = 2.5 * mm;  ///< on the surfaces
+  double at_tears = 0.6;   ///< share of `edge` near the rims of the tears
+  double in_lumen = 1.8;   ///< multiple of `edge` in the middle of wide lumen
 };
 LabelDomain label_domain(const DissectionModel& model, const DissectionSizes& sizes);
 

@@ -107,9 +107,8 @@ std::vector<Cell> worse_than(const LocalMesh& mesh, double sine) {
   std::vector<Cell> bad;
   for (Cell c = 0; c < mesh.cells(); ++c)
     if (mesh.alive(c) && mesh.sine(c) < sine) bad.push_back(c);
-  std::sort(bad.begin(), bad.end(), [&](Cell a, Cell b) {
-    return mesh.sine(a) != mesh.sine(b) ? mesh.sine(a) < mesh.sine(b) : a < b;
-  });
+  std::sort(bad.begin(), bad.end(),
+            [&](Cell a, Cell b) { return mesh.sine(a) != mesh.sine(b) ? mesh.sine(a) < mesh.sine(b) : a < b; });
   return bad;
 }
 

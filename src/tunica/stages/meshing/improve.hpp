@@ -27,7 +27,8 @@ struct Improvement {
 
 /// Raises the worst sine of a dihedral angle around each node or reconnection; nothing gets worse. Inner nodes move
 /// freely, nodes of a surface along it, nodes of curves not at all. Labels, surfaces and their topology stay what they
-/// are. Elements keep positive volume. (Operations as in Klingner & Shewchuk 2008, Proc. 16th Meshing Roundtable, 3-23.)
+/// are. Elements keep positive volume. (Operations as in Klingner & Shewchuk 2008, Proc. 16th Meshing Roundtable,
+/// 3-23.)
 Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOptions& options,
                     const std::function<void(const std::string&)>& tell);
 

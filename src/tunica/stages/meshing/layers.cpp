@@ -9,8 +9,7 @@ namespace tunica::stages::meshing {
 
 Index double_layers(Tetrahedra& mesh, std::vector<std::array<Index, 2>> bridges) {
   const auto length = [&](const std::array<Index, 2>& e) { return norm(mesh.points[e[0]] - mesh.points[e[1]]); };
-  std::stable_sort(bridges.begin(), bridges.end(),
-                   [&](const auto& a, const auto& b) { return length(a) > length(b); });
+  std::stable_sort(bridges.begin(), bridges.end(), [&](const auto& a, const auto& b) { return length(a) > length(b); });
   LocalMesh local(mesh);
   using Node = LocalMesh::Node;
   std::vector<Node> added;

@@ -65,8 +65,8 @@ Tetrahedra LocalMesh::extract() const {
   }
   for (Cell c = 0; c < cells(); ++c) {
     if (!alive(c)) continue;
-    mesh.elements.push_back({number[corners_[c][0]], number[corners_[c][1]], number[corners_[c][2]],
-                             number[corners_[c][3]]});
+    mesh.elements.push_back(
+        {number[corners_[c][0]], number[corners_[c][1]], number[corners_[c][2]], number[corners_[c][3]]});
     mesh.labels.push_back(labels_[c]);
   }
   return mesh;
@@ -132,9 +132,8 @@ void LocalMesh::replace(const std::vector<Cell>& old, const std::vector<NewCell>
 }
 
 bool LocalMesh::is_edge(Node a, Node b) const {
-  return std::any_of(stars_[a].begin(), stars_[a].end(), [&](Cell c) {
-    return std::find(corners_[c].begin(), corners_[c].end(), b) != corners_[c].end();
-  });
+  return std::any_of(stars_[a].begin(), stars_[a].end(),
+                     [&](Cell c) { return std::find(corners_[c].begin(), corners_[c].end(), b) != corners_[c].end(); });
 }
 
 LocalMesh::Cell LocalMesh::across(Cell c, int f) const {

@@ -24,7 +24,7 @@ struct MeshCase {
   std::string title;
   Geometry geometry;
   Size size = Medium{};
-  double at_tears = 0.6;       ///< edge length at the rims of the tears, as a share of that elsewhere
+  double at_tears = 0.6;  ///< edge length at the rims of the tears, as a share of that elsewhere
   int elements_through_wall = 1;
   std::filesystem::path output;
 

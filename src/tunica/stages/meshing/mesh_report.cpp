@@ -25,8 +25,7 @@ Edge edge(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
 double area(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
   double sum = 0;
-  for (const auto& t : triangles)
-    sum += 0.5 * norm(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  for (const auto& t : triangles) sum += 0.5 * norm(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
   return sum;
 }
 
@@ -42,7 +41,8 @@ nlohmann::json to_json(const Shapes& s) {
           {"dihedral_histogram_5_deg", s.dihedral_histogram},
           {"smallest_radius_ratio", s.smallest_radius_ratio},
           {"radius_ratio_histogram_0.1", s.radius_ratio_histogram},
-          {"edge_mm", {{"shortest", s.shortest_edge * 1e3}, {"mean", s.mean_edge * 1e3}, {"longest", s.longest_edge * 1e3}}}};
+          {"edge_mm",
+           {{"shortest", s.shortest_edge * 1e3}, {"mean", s.mean_edge * 1e3}, {"longest", s.longest_edge * 1e3}}}};
 }
 
 double volume(const mesh::MeshData& data, const mesh::RegionData& region) {
@@ -64,9 +64,7 @@ std::vector<Triangle> boundary(const mesh::MeshData& data, mesh::RegionKind kind
   return triangles;
 }
 
-nlohmann::json to_json(const Topology& t) {
-  return {{"parts", t.parts}, {"genus", t.genus}, {"manifold", t.manifold}};
-}
+nlohmann::json to_json(const Topology& t) { return {{"parts", t.parts}, {"genus", t.genus}, {"manifold", t.manifold}}; }
 
 }  // namespace
 
@@ -200,8 +198,8 @@ std::string report_text(const nlohmann::json& r) {
                                  "volume ml", "min dihedral", "0.01 % quantile", "mean edge");
   const auto line = [&](const std::string& name, const nlohmann::json& s, const std::string& volume) {
     text += fmt::format("{:<20}{:>12}{:>12}{:>13.2f}°{:>15.2f}°{:>9.3f} mm\n", name, s["elements"].get<Index>(), volume,
-                        s["smallest_dihedral_deg"].get<double>(),
-                        s["dihedral_of_worst_0.01_percent_deg"].get<double>(), s["edge_mm"]["mean"].get<double>());
+                        s["smallest_dihedral_deg"].get<double>(), s["dihedral_of_worst_0.01_percent_deg"].get<double>(),
+                        s["edge_mm"]["mean"].get<double>());
   };
   for (const auto& region : r["regions"])
     line(region["name"], region, fmt::format("{:.2f}", region["volume_ml"].get<double>()));

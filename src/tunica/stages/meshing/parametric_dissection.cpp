@@ -179,19 +179,21 @@ void check_flap_place(const ParametricDissection& d, Problems& problems) {
   const auto& f = d.flap;
   const double end = f.start + f.length, last = d.length() - 5 * mm;
   if (f.start < d.aorta.ascending_length)
-    problems.add("flap.start", fmt::format("is {}, in the ascending aorta: that is no type-B dissection", in_mm(f.start)),
+    problems.add("flap.start",
+                 fmt::format("is {}, in the ascending aorta: that is no type-B dissection", in_mm(f.start)),
                  fmt::format("start after the ascending part, {}", in_mm(d.aorta.ascending_length)));
   if (end > last)
-    problems.add("flap.length", fmt::format("lets the flap end at {}, but the aorta is {} long", in_mm(end),
-                                            in_mm(d.length())),
+    problems.add("flap.length",
+                 fmt::format("lets the flap end at {}, but the aorta is {} long", in_mm(end), in_mm(d.length())),
                  "shorten the flap, start it earlier, or lengthen the descending aorta");
   if (2 * f.taper > f.length - 20 * mm)
     problems.add("flap.taper", fmt::format("is {} at either end of a flap of {}", in_mm(f.taper), in_mm(f.length)),
                  "leave at least 20 mm between the tapers");
   if (f.rim_fillet > f.thickness / 2)
-    problems.add("flap.rim_fillet", fmt::format("is {}, more than half the thickness of the flap, {}",
-                                                in_mm(f.rim_fillet), in_mm(f.thickness)),
-                 fmt::format("give at most {}", in_mm(f.thickness / 2)));
+    problems.add(
+        "flap.rim_fillet",
+        fmt::format("is {}, more than half the thickness of the flap, {}", in_mm(f.rim_fillet), in_mm(f.thickness)),
+        fmt::format("give at most {}", in_mm(f.thickness / 2)));
 }
 
 void check_lumens(const ParametricDissection& d, const DissectionModel& model, Problems& problems) {
@@ -218,16 +220,17 @@ void check_tear(const ParametricDissection& d, const DissectionModel& model, con
   const double first = f.start + f.taper * 0.8 + half_length + strip,
                last = f.start + f.length - f.taper * 0.8 - half_length - strip;
   if (tear.position < first || tear.position > last)
-    problems.add(key + ".position", fmt::format("is {}: the tear would reach where the flap leaves the wall",
-                                                in_mm(tear.position)),
+    problems.add(key + ".position",
+                 fmt::format("is {}: the tear would reach where the flap leaves the wall", in_mm(tear.position)),
                  first < last ? fmt::format("place it between {} and {}", in_mm(first), in_mm(last))
                               : "make the tear smaller or the flap longer");
   double width = 1;
   for (double s = tear.position - half_length; s <= tear.position + half_length; s += mm)
     width = std::min(width, model.flap_half_width(s));
   if (std::abs(tear.across) + half_width + strip > width)
-    problems.add(key, fmt::format("is {} wide{}, but the flap there has a width of {}", in_mm(2 * half_width),
-                                  tear.across == 0 ? "" : " and off the middle", in_mm(2 * width)),
+    problems.add(key,
+                 fmt::format("is {} wide{}, but the flap there has a width of {}", in_mm(2 * half_width),
+                             tear.across == 0 ? "" : " and off the middle", in_mm(2 * width)),
                  fmt::format("leave {} of flap on either side: a smaller area, or a larger aspect", in_mm(strip)));
 }
 
@@ -237,8 +240,8 @@ void check_tears(const ParametricDissection& d, const DissectionModel& model, Pr
   const auto half_length = [](const TearShape& t) { return std::sqrt(t.area * t.aspect / std::numbers::pi); };
   const double apart = half_length(d.flap.entry) + half_length(d.flap.exit) + 5 * mm;
   if (d.flap.exit.position - d.flap.entry.position < apart)
-    problems.add("flap.exit_tear.position", fmt::format("is {}, the entry tear at {}", in_mm(d.flap.exit.position),
-                                                        in_mm(d.flap.entry.position)),
+    problems.add("flap.exit_tear.position",
+                 fmt::format("is {}, the entry tear at {}", in_mm(d.flap.exit.position), in_mm(d.flap.entry.position)),
                  fmt::format("place it at least {} after the entry tear", in_mm(apart)));
 }
 
@@ -265,8 +268,8 @@ void check_branch(const ParametricDissection& d, const DissectionModel& model, c
   const double leaves = branch.position + R * std::tan(branch.inclination);
   const double end = d.length() - (d.iliacs ? R : 0);
   if (std::min(leaves, branch.position) - room < 2 * mm || std::max(leaves, branch.position) + room > end - 2 * mm)
-    problems.add(key + ".position", fmt::format("is {}: the branch would reach beyond an end of the aorta",
-                                                in_mm(branch.position)),
+    problems.add(key + ".position",
+                 fmt::format("is {}: the branch would reach beyond an end of the aorta", in_mm(branch.position)),
                  fmt::format("place it between {} and {}", in_mm(room + 2 * mm), in_mm(end - room - 2 * mm)));
   const double first = d.flap.start, last = d.flap.start + d.flap.length;
   if (std::max(leaves, branch.position) + room > first && std::min(leaves, branch.position) - room < last)
@@ -294,11 +297,11 @@ void check_branches(const ParametricDissection& d, const DissectionModel& model,
       const double least = tubes[i].radius + tubes[i].wall_thickness + tubes[j].radius + tubes[j].wall_thickness;
       const double found = distance(tubes[i], origin(i), tubes[j], origin(j));
       if (found < least + 1 * mm)
-        problems.add(branches[i].first,
-                     fmt::format("overlaps {}: their axes come as near as {}, radii and walls add up to {}",
-                                 j < branches.size() ? branches[j].first : "an iliac artery", in_mm(found),
-                                 in_mm(least)),
-                     "move them apart, or make them thinner");
+        problems.add(
+            branches[i].first,
+            fmt::format("overlaps {}: their axes come as near as {}, radii and walls add up to {}",
+                        j < branches.size() ? branches[j].first : "an iliac artery", in_mm(found), in_mm(least)),
+            "move them apart, or make them thinner");
     }
 }
 
@@ -360,13 +363,15 @@ Schema<ParametricDissection> ParametricDissection::schema() {
   arch("left_common_carotid", &P::left_common_carotid);
   arch("left_subclavian", &P::left_subclavian);
   const auto visceral = [&](const char* name, std::optional<BranchShape> P::*branch, const BranchShape& sizes) {
-    schema.section(name, branch, branch_schema(name, sizes), "Visceral branch; `{}` for the usual one, none when left out");
+    schema.section(name, branch, branch_schema(name, sizes),
+                   "Visceral branch; `{}` for the usual one, none when left out");
   };
   visceral("celiac", &P::celiac, usual_celiac());
   visceral("superior_mesenteric", &P::superior_mesenteric, usual_superior_mesenteric());
   visceral("left_renal", &P::left_renal, usual_left_renal());
   visceral("right_renal", &P::right_renal, usual_right_renal());
-  schema.section("iliacs", &P::iliacs, iliac_schema(), "`{}` for the usual ones; when left out the aorta ends in a plane");
+  schema.section("iliacs", &P::iliacs, iliac_schema(),
+                 "`{}` for the usual ones; when left out the aorta ends in a plane");
   return schema.check([](const P& shape, Problems& problems) {
     const Problems found = impossibilities(shape);
     problems.errors.insert(problems.errors.end(), found.errors.begin(), found.errors.end());

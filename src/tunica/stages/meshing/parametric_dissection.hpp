@@ -43,7 +43,7 @@ struct FlapShape {
   double thickness = 1.75 * mm, false_lumen_wall_thickness = 1.4 * mm;
   double turns = 0.5, true_lumen_direction = 180 * degree, true_lumen_share = 0.42, bow = 2 * mm;
   double rim_fillet = 0.8 * mm, corner_fillet = 2 * mm;
-  TearShape entry{212 * mm, 228 * mm * mm, 1.7, 0}, exit{318 * mm, 227 * mm * mm, 1.7, 0};
+  TearShape entry{212 * mm, 228 * mm*mm, 1.7, 0}, exit{318 * mm, 227 * mm*mm, 1.7, 0};
 };
 
 struct IliacShape {

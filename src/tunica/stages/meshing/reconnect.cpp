@@ -20,7 +20,7 @@ constexpr double least_gain = 1.02;  // of the worst sine: smaller ones are not 
 struct Change {
   std::vector<Cell> old;
   std::vector<LocalMesh::NewCell> fresh;
-  double sine = -1;  ///< worst of `fresh`
+  double sine = -1;                        ///< worst of `fresh`
   std::array<Node, 2> on_surface{-1, -1};  ///< a new edge that lies on a surface
 };
 
@@ -85,8 +85,9 @@ std::vector<std::size_t> label_changes(const LocalMesh& mesh, const LocalMesh::R
   return at;
 }
 
-/// May the two surface triangles at the edge (a, b) with opposite nodes p, q be replaced by those at (p, q)? The surface
-/// must hardly bend. An edge from p to q may exist only where a flat element between the four nodes is what goes.
+/// May the two surface triangles at the edge (a, b) with opposite nodes p, q be replaced by those at (p, q)? The
+/// surface must hardly bend. An edge from p to q may exist only where a flat element between the four nodes is what
+/// goes.
 bool may_turn(const LocalMesh& mesh, Node a, Node b, Node p, Node q, bool one_between) {
   if (mesh.is_edge(p, q)) {
     const auto around = mesh.ring(p, q);

@@ -119,9 +119,9 @@ Point bisect(const LabelDomain& domain, Point a, Point b, int label_a) {
   return 0.5 * (a + b);
 }
 
-/// Points on every surface, found by walking a lattice along one axis and bisecting where the label changes. Thin sheets
-/// are then known to the refinement before it starts. No two are closer than `spacing` local sizes, and none is near a
-/// curve, whose protecting balls must stay empty.
+/// Points on every surface, found by walking a lattice along one axis and bisecting where the label changes. Thin
+/// sheets are then known to the refinement before it starts. No two are closer than `spacing` local sizes, and none is
+/// near a curve, whose protecting balls must stay empty.
 std::vector<Point> surface_samples(const LabelDomain& domain, double spacing) {
   constexpr double line_spacing = 2e-3, step = 5e-4;  // m: lines between samples, and steps along a line
   const Point extent = domain.box.high - domain.box.low;

@@ -17,10 +17,10 @@ using mesh::centroid;
 /// A straight way through the wall, from one triangle of the interface to where it comes out.
 struct Passage {
   LabelledTriangle from;
-  std::vector<Index> elements;      ///< crossed
-  bool to_lumen = false;            ///< else it comes out of the body, or got lost
-  std::array<Index, 3> to{};        ///< nodes where it comes out
-  double length = 0;                ///< m
+  std::vector<Index> elements;  ///< crossed
+  bool to_lumen = false;        ///< else it comes out of the body, or got lost
+  std::array<Index, 3> to{};    ///< nodes where it comes out
+  double length = 0;            ///< m
 };
 
 /// Across which face and after which length the ray leaves the element.
@@ -95,8 +95,7 @@ std::vector<Tie> make_ties(const Tetrahedra& mesh, const std::vector<Passage>& p
   for (const auto& p : passages) {
     if (!p.to_lumen || p.length > thickest_flap) continue;
     const auto& n = p.from.nodes;
-    const double area =
-        0.5 * norm(cross(mesh.points[n[1]] - mesh.points[n[0]], mesh.points[n[2]] - mesh.points[n[0]]));
+    const double area = 0.5 * norm(cross(mesh.points[n[1]] - mesh.points[n[0]], mesh.points[n[2]] - mesh.points[n[0]]));
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) ties.push_back({n[i], p.to[j], area / 9 / p.length, -1});
   }
@@ -231,8 +230,8 @@ double area(const Tetrahedra& mesh, const Cap& cap) {
 }
 
 /// Volume in each slice of the way from the cap tells the cross-section; the branch ends where it grows.
-void mark_branch(const Tetrahedra& mesh, Flood& flood, const std::vector<Index>& seeds, const Cap& cap,
-                 double widening, std::vector<bool>& in_branch) {
+void mark_branch(const Tetrahedra& mesh, Flood& flood, const std::vector<Index>& seeds, const Cap& cap, double widening,
+                 std::vector<bool>& in_branch) {
   const double slice = 0.8 * std::sqrt(area(mesh, cap) / 3.14159);
   std::vector<double> volumes;
   const auto reached = flood.run(seeds, [&](const std::vector<Flood::Reached>& all) {
@@ -275,8 +274,8 @@ std::vector<bool> find_branches(const Tetrahedra& mesh, const std::vector<std::a
 }
 
 /// Elements that no passage crossed take the region of a neighbour that has one, those nearest to one first.
-void spread(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adjacent,
-            std::vector<bool> known, std::vector<WallRegion>& regions) {
+void spread(const Tetrahedra& mesh, const std::vector<std::array<Index, 4>>& adjacent, std::vector<bool> known,
+            std::vector<WallRegion>& regions) {
   std::queue<Index> queue;
   for (Index e = 0; e < std::ssize(mesh.elements); ++e)
     if (known[e]) queue.push(e);
@@ -332,7 +331,7 @@ WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& ca
   for (const auto& p : passages) {
     const double here = mean_side(result.side, p.from.nodes);
     const bool flap = p.to_lumen && p.length <= options.thickest_flap && here * mean_side(result.side, p.to) < 0;
-    const WallRegion region = flap                         ? WallRegion::flap
+    const WallRegion region = flap                        ? WallRegion::flap
                               : in_branch[p.from.element] ? WallRegion::branches
                               : here < 0                  ? WallRegion::false_lumen_wall
                                                           : WallRegion::true_lumen_wall;

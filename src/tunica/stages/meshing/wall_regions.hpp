@@ -1,9 +1,9 @@
 // Which part of the wall is which, found from the mesh alone, so that it works for any dissection.
 //
 // The flap is wall wetted on both sides by different lumens. Which lumen is which: every lumen node gets a value that
-// wants to equal its neighbours' and to be the opposite of the value across a thin wall, with the inlet held at 1. Blood
-// that the inlet reaches without crossing a tear keeps a positive value, that behind the tears a negative one, since a
-// tear is small against the flap. (Minimum of a signed graph Laplacian: Kunegis et al. 2010, SDM, 559-570.)
+// wants to equal its neighbours' and to be the opposite of the value across a thin wall, with the inlet held at 1.
+// Blood that the inlet reaches without crossing a tear keeps a positive value, that behind the tears a negative one,
+// since a tear is small against the flap. (Minimum of a signed graph Laplacian: Kunegis et al. 2010, SDM, 559-570.)
 #pragma once
 
 #include <array>
