@@ -46,6 +46,12 @@ function(tunica_instruction_sets)
   endforeach()
 endfunction()
 
+# Sources that include CGAL: its interval arithmetic needs -frounding-math, and its own assertions cost half the time.
+function(tunica_cgal_sources)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-frounding-math"
+    COMPILE_DEFINITIONS "NDEBUG;CGAL_USE_GMP;CGAL_USE_MPFR;CGAL_MESH_3_MESHER_STATUS_ACTIVATED")
+endfunction()
+
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
 # LINK names exactly what the include table in ARCHITECTURE.md allows.
 function(tunica_folder name)
