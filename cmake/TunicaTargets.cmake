@@ -46,6 +46,15 @@ function(tunica_instruction_sets)
   endforeach()
 endfunction()
 
+# <name>_cgal.cpp uses CGAL's exact predicates, which set the rounding mode; no other source is compiled for that.
+function(tunica_cgal_sources)
+  foreach(source ${ARGN})
+    if(source MATCHES "_cgal\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-frounding-math")
+    endif()
+  endforeach()
+endfunction()
+
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
 # LINK names exactly what the include table in ARCHITECTURE.md allows.
 function(tunica_folder name)
@@ -53,6 +62,7 @@ function(tunica_folder name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   if(sources)
     tunica_instruction_sets(${sources})
+    tunica_cgal_sources(${sources})
     add_library(tunica_${name} STATIC ${sources})
     target_link_libraries(tunica_${name} PUBLIC tunica_flags ${ARG_LINK})
   else()
