@@ -20,7 +20,7 @@ using Edge = Mesh::Edge_index;
 using Face = Mesh::Face_index;
 
 // The usual bounds, between which neither a split nor a collapse pays.
-constexpr double longest = 4.0 / 3, shortest = 4.0 / 5;
+constexpr double longest = 4.0 / 3, shortest = 4.0 / 5, tiny = 0.3;
 // Cosines: largest turn of a triangle in one operation, and between a point and the original triangle it lies on.
 constexpr double largest_turn = 0.5, same_side = 0.2, away = 0.3;
 
@@ -40,6 +40,7 @@ class Remesher {
       flip_edges(!last);
       smooth();
     }
+    collapse_tiny_edges();
     flip_edges(false);
     for (int i = 0; i < 2; ++i) fit();
     return result();
@@ -177,14 +178,25 @@ class Remesher {
     }
   }
 
+  /// What lines and bounds have kept from collapsing, but is too short for any mesh.
+  void collapse_tiny_edges() {
+    std::vector<Edge> list;
+    for (const auto e : mesh_.edges())
+      if (length(e) < tiny * wanted(e) && !frozen(e)) list.push_back(e);
+    for (const auto e : list)
+      if (!mesh_.is_removed(e) && length(e) < tiny * wanted(e)) collapse(e);
+  }
+
   void collapse(Edge e) {
     const auto a = mesh_.vertex(e, 0), b = mesh_.vertex(e, 1);
     const int rank_a = rank(a), rank_b = rank(b);
     const bool line = on_line(e);
-    if ((rank_a > 0 && rank_b > 0 && !line) || (rank_a == 2 && rank_b == 2)) return;
+    const bool is_tiny = length(e) < tiny * wanted(e), borders = mesh_.is_border(a) && mesh_.is_border(b);
+    if (rank_a > 0 && rank_b > 0 && !line && (borders || !is_tiny)) return;
+    if (rank_a == 2 && rank_b == 2 && !is_tiny) return;
     if (!CGAL::Euler::does_satisfy_link_condition(e, mesh_)) return;
     Point place;
-    if (rank_a != rank_b) {
+    if (rank_a != rank_b || rank_a == 2) {
       place = mesh_.point(rank_a > rank_b ? a : b);
     } else {
       const auto at = project(0.5 * (mesh_.point(a) + mesh_.point(b)), unit(normal(a) + normal(b)), line, wanted(e));
@@ -219,9 +231,10 @@ class Remesher {
 
   /// Whether the triangles around `v` that do not contain `other` stay sound when v moves to `place`.
   bool may_merge(Vertex v, Vertex other, const Point& place) const {
+    const double far = longest * (norm(mesh_.point(v) - mesh_.point(other)) < tiny * size_[v] ? 1.5 : 1.0);
     for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
       const auto end = mesh_.source(h);
-      if (end != other && norm(place - mesh_.point(end)) > longest * std::min(size_[v], size_[end])) return false;
+      if (end != other && norm(place - mesh_.point(end)) > far * std::min(size_[v], size_[end])) return false;
       if (mesh_.is_border(h)) continue;
       const auto c = mesh_.target(mesh_.next(h));
       if (end == other || c == other) continue;

@@ -180,8 +180,7 @@ SurfacePoint TriangleTree::ray(const Point& x, const Vec3<double>& direction, do
   return best;
 }
 
-bool TriangleTree::contains(const Point& x) const {
-  const auto found = nearest(x);
+bool TriangleTree::is_behind(const Point& x, const SurfacePoint& found) const {
   if (!found) return false;
   // Angle-weighted normals decide correctly at sides and corners, too (Baerentzen & Aanaes 2005).
   const auto& t = surface_.triangles[found.triangle];

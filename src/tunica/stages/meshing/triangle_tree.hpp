@@ -58,7 +58,9 @@ class TriangleTree {
   SurfacePoint ray(const Point& x, const Vec3<double>& direction, double from, double within) const;
 
   /// Whether x lies inside: the surface is closed and its normals point outward. Decided at the nearest point.
-  bool contains(const Point& x) const;
+  bool contains(const Point& x) const { return is_behind(x, nearest(x)); }
+  /// The same with the nearest point at hand.
+  bool is_behind(const Point& x, const SurfacePoint& nearest) const;
 
   /// A value given at the points, interpolated at a point of the surface.
   double interpolate(std::span<const double> values, const SurfacePoint& at) const;
