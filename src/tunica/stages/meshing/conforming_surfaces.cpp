@@ -33,8 +33,7 @@ Spots far_places(Sheet& sheet, const Accuracy& accuracy) {
   };
   const auto measure = [&](const Point& x) {
     const auto at = sheet.original.tree.nearest(x);
-    judge(at.distance, sheet.original.tree.interpolate(sheet.original.sizes, at),
-          nearest_corner(sheet.original.tree, at));
+    judge(at.distance, sheet.original.tree.interpolate(sheet.asked, at), nearest_corner(sheet.original.tree, at));
   };
   for (const auto& edge : edges(sheet.mesh.surface))
     measure(0.5 * (sheet.mesh.surface.points[edge.a] + sheet.mesh.surface.points[edge.b]));
@@ -42,7 +41,7 @@ Spots far_places(Sheet& sheet, const Accuracy& accuracy) {
     measure((1.0 / 3) *
             (sheet.mesh.surface.points[t[0]] + sheet.mesh.surface.points[t[1]] + sheet.mesh.surface.points[t[2]]));
   for (std::int64_t p = 0; p < std::ssize(original.points); ++p)
-    judge(mesh.nearest(original.points[p]).distance, sheet.original.sizes[p], p);
+    judge(mesh.nearest(original.points[p]).distance, sheet.asked[p], p);
   return spots;
 }
 
@@ -65,19 +64,28 @@ std::int64_t add_crossings(const std::vector<Sheet>& sheets, std::vector<Spots>&
   return std::ssize(pairs);
 }
 
-/// Lowers the sizes at the spots and within an edge length around them.
+/// Lowers the sizes at the spots and at the points next to them.
 void refine(Sheet& sheet, Spots spots, double gradation) {
-  constexpr double finer = 0.7;
+  constexpr double finer = 0.6;
   std::sort(spots.begin(), spots.end());
   spots.erase(std::unique(spots.begin(), spots.end()), spots.end());
-  for (const auto p : spots) sheet.original.sizes[p] *= finer;
-  limit_gradation(sheet.original.tree.surface(), gradation, sheet.original.sizes);
+  const auto& surface = sheet.original.tree.surface();
+  std::vector<double> lowered = sheet.original.sizes;
+  for (const auto& t : surface.triangles)
+    for (int i = 0; i < 3; ++i)
+      if (std::binary_search(spots.begin(), spots.end(), t[i]))
+        for (const auto p : t) lowered[p] = std::min(lowered[p], finer * sheet.original.sizes[t[i]]);
+  sheet.original.sizes = std::move(lowered);
+  limit_gradation(surface, gradation, sheet.original.sizes);
 }
 
 }  // namespace
 
 void remesh_together(std::vector<Sheet>& sheets, const Accuracy& accuracy, double gradation, const Log& log) {
-  for (auto& sheet : sheets) sheet.mesh = {sheet.original.tree.surface(), sheet.original.creases};
+  for (auto& sheet : sheets) {
+    sheet.mesh = {sheet.original.tree.surface(), sheet.original.creases};
+    sheet.asked = sheet.original.sizes;
+  }
   std::vector<bool> due(sheets.size(), true);
   for (int round = 1;; ++round) {
     std::vector<Spots> spots(sheets.size());

@@ -13,7 +13,7 @@ namespace tunica::stages::meshing {
 using Log = std::function<void(const std::string&)>;
 
 struct Accuracy {
-  double per_edge = 0.3;     ///< largest distance from the original over the local edge length
+  double per_edge = 0.3;     ///< largest distance from the original over the edge length asked for there
   double absolute = 0.5e-3;  ///< largest distance from the original [m]
   int rounds = 8;            ///< of remeshing with finer edges where the bounds do not hold
 };
@@ -21,9 +21,10 @@ struct Accuracy {
 /// A surface, what it is made from, and how fine it is to be.
 struct Sheet {
   Original original;
-  Remeshed mesh;        ///< the result
-  double distance = 0;  ///< largest one between mesh and original, both ways [m]
-  double relative = 0;  ///< the same over the local edge length
+  Remeshed mesh;              ///< the result
+  std::vector<double> asked;  ///< the sizes of `original` at first, by which accuracy is judged
+  double distance = 0;        ///< largest one between mesh and original, both ways [m]
+  double relative = 0;        ///< the same over the edge length asked for there
 };
 
 /// Remeshes all sheets. Where a mesh is too far from its original or two triangles of any sheets cross, sizes are

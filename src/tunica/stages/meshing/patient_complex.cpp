@@ -147,8 +147,8 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
   if (outer) flatten_rims(*outer, openings, &Opening::wall);
 
   std::vector<Sheet> sheets;
-  sheets.push_back({{TriangleTree(lumen), find_creases(lumen), {}}, {}});
-  if (outer) sheets.push_back({{TriangleTree(*outer), find_creases(*outer), {}}, {}});
+  sheets.push_back({{TriangleTree(lumen), find_creases(lumen), {}}, {}, {}});
+  if (outer) sheets.push_back({{TriangleTree(*outer), find_creases(*outer), {}}, {}, {}});
   auto thickness =
       wall_thickness(sheets[0].original.tree, outer ? &sheets[1].original.tree : nullptr, options.thickness_reach);
   sheets[0].original.sizes = surface_sizes(lumen, thickness.value, options.sizes);

@@ -14,7 +14,7 @@ struct MendOptions {
   std::string name = "surface";  ///< for messages
   int parts = 1;  ///< connected parts expected; smaller fragments than a hundredth of the area are dropped
   double smallest_opening = 1e-3;  ///< [m] open edges no longer than this times pi are holes, not vessel ends
-  std::filesystem::path spots;     ///< .vtp file for the places of all problems; empty: none is written
+  std::filesystem::path spots{};   ///< .vtp file for the places of all problems; empty: none is written
 };
 
 struct MendedSurface {

@@ -7,13 +7,15 @@
 #include "tunica/base/error.hpp"
 #include "tunica/stages/meshing/contour.hpp"
 #include "tunica/stages/meshing/plane_cut.hpp"
+#include "tunica/stages/meshing/remesh.hpp"
 #include "tunica/stages/meshing/triangle_tree.hpp"
 
 namespace tunica::stages::meshing {
 
 namespace {
 
-/// Radius of the largest ball that touches the surface at `x` from inside (shrinking ball, Ma et al. 2012).
+/// Radius of the largest ball that touches the surface at `x` from inside (shrinking ball, Ma et al. 2012), moved away
+/// from the surface while that lets it grow: the normal at `x` only roughly points to the axis of the vessel.
 double inscribed_radius(const TriangleTree& tree, const Point& x, const Vec3<double>& outward, double largest) {
   double radius = largest;
   for (int i = 0; i < 20; ++i) {
@@ -26,7 +28,17 @@ double inscribed_radius(const TriangleTree& tree, const Point& x, const Vec3<dou
     if (depth < 0.3 * norm(to_q)) break;
     radius = dot(to_q, to_q) / (2 * depth);
   }
-  return radius;
+  Point centre = x - radius * outward;
+  for (int i = 0; i < 8; ++i) {
+    const auto q = tree.nearest(centre);
+    const auto away = centre - q.place;
+    const Point next = centre + 0.05 * away;
+    const double there = tree.nearest(next).distance;
+    radius = std::max(q.distance, there);
+    if (there <= q.distance) break;
+    centre = next;
+  }
+  return std::min(radius, largest);
 }
 
 /// Averages over neighbours; the thickness of a wall has no steps.
@@ -53,14 +65,14 @@ struct Body {
 };
 
 Body lengthened(const TriangleSurface& lumen, const std::vector<double>& thickness,
-                const std::vector<Opening>& openings, double spacing) {
+                const std::vector<Opening>& openings, double margin) {
   Body body{lumen, thickness};
   auto& [points, triangles] = body.surface;
   for (const auto& opening : openings) {
     const auto& rim = opening.lumen;
     double longest = 0;
     for (const auto p : rim) longest = std::max(longest, thickness[p]);
-    const double length = 2 * longest + 4 * spacing;
+    const double length = 2 * longest + margin;
     const auto first = std::ssize(points), n = std::ssize(rim);
     Point end{{0, 0, 0}};
     for (const auto p : rim) {
@@ -100,15 +112,6 @@ class WallFunction {
     return tree_.offset(x, nearest.distance).distance;
   }
 
-  /// Moves a point near the outer surface onto it along `n`, at most by `step`. Not straight to the exact place: in
-  /// the notch between two vessels neighbours would pass each other.
-  Point settle(const Point& x, const Vec3<double>& n, double step) const {
-    const auto q = tree_.offset(x, 10 * reach_);
-    const auto out = x - q.place;
-    const double slope = q ? dot(out, n) / norm(out) : 0;
-    return slope > 0.5 ? x - std::clamp(q.distance / slope, -step, step) * n : x;
-  }
-
  private:
   TriangleTree tree_;
   double least_ = 0, reach_ = 0;  ///< smallest and largest thickness
@@ -126,9 +129,18 @@ Grid grid_around(const TriangleSurface& surface, double margin, double spacing) 
   return grid;
 }
 
-Grid sample(const WallFunction& wall, double spacing) {
+/// Calls `visit(index, place)` for all samples, x fastest.
+template <class Visit>
+void for_each_place(const Grid& grid, Visit visit) {
+  for (std::int64_t k = 0; k < grid.size[2]; ++k)
+    for (std::int64_t j = 0; j < grid.size[1]; ++j)
+      for (std::int64_t i = 0; i < grid.size[0]; ++i) visit(grid.index(i, j, k), grid.place(i, j, k));
+}
+
+/// Distance less thickness, exact within two grid steps of `level`, of the right order elsewhere.
+Grid sample(const WallFunction& wall, double level, double spacing) {
   const auto& body = wall.tree().surface();
-  const double band = wall.reach() + 2 * spacing;
+  const double exact = level + 2 * spacing, band = wall.reach() + exact;
   auto grid = grid_around(body, band + 2 * spacing, spacing);
   grid.values.assign(grid.size[0] * grid.size[1] * grid.size[2], 0);
   std::vector<bool> due(grid.values.size(), false);
@@ -137,25 +149,34 @@ Grid sample(const WallFunction& wall, double spacing) {
     for (int d = 0; d < 3; ++d) {
       const auto [a, b] = std::minmax({body.points[t[0]][d], body.points[t[1]][d], body.points[t[2]][d]});
       low[d] = std::max<std::int64_t>(0, std::llround((a - band - grid.origin[d]) / spacing));
-      high[d] =
-          std::min(grid.size[d] - 1, static_cast<std::int64_t>(std::llround((b + band - grid.origin[d]) / spacing)));
+      high[d] = std::min<std::int64_t>(grid.size[d] - 1, std::llround((b + band - grid.origin[d]) / spacing));
     }
     for (auto k = low[2]; k <= high[2]; ++k)
       for (auto j = low[1]; j <= high[1]; ++j)
         for (auto i = low[0]; i <= high[0]; ++i) due[grid.index(i, j, k)] = true;
   }
   // The band has no gaps, so along a row the sign changes only inside it.
-  for (std::int64_t k = 0; k < grid.size[2]; ++k)
-    for (std::int64_t j = 0; j < grid.size[1]; ++j) {
-      double side = 1;
-      for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-        const auto at = grid.index(i, j, k);
-        const double value = due[at] ? wall(grid.place(i, j, k), 2 * spacing) : side * band;
-        grid.values[at] = static_cast<float>(value);
-        side = value < 0 ? -1 : 1;
-      }
-    }
+  for_each_place(grid, [&, side = 1.0](std::int64_t at, const Point& x) mutable {
+    const double value = due[at] ? wall(x, exact) : side * band;
+    grid.values[at] = static_cast<float>(value - level);
+    side = value < 0 ? -1 : 1;
+  });
   return grid;
+}
+
+/// Turns samples of the distance to a surface `depth` outside the wanted one into samples of that distance to the
+/// wanted one: `outside` is the surface, and what lies deeper than `depth` below it is inside.
+void erode(const TriangleTree& outside, double depth, Grid& grid) {
+  const double band = 2 * grid.spacing;
+  for_each_place(grid, [&](std::int64_t at, const Point& x) {
+    auto& value = grid.values[at];
+    if (value >= 0)
+      value = static_cast<float>(depth);
+    else if (value < -depth - band)
+      value = static_cast<float>(-band);
+    else
+      value = static_cast<float>(depth - std::min(depth + band, outside.nearest(x, depth + band).distance));
+  });
 }
 
 /// Drops the parts that enclose cavities: their normals point inward, to the positive side.
@@ -184,7 +205,9 @@ std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std:
                                         const GrowthSettings& settings) {
   const std::vector<double> uniform(lumen.points.size(), settings.thickest);
   if (settings.thinnest == settings.thickest) return uniform;
-  const auto outer = grow_wall(lumen, uniform, openings, 2 * settings.spacing);
+  auto coarse = settings;
+  coarse.spacing = 2 * settings.spacing;
+  const auto outer = grow_wall(lumen, uniform, openings, coarse);
   const auto normals = point_normals(outer);
   const TriangleTree tree(outer);
   const double largest = settings.thickest / settings.per_radius + settings.thickest;
@@ -201,15 +224,19 @@ std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std:
 }
 
 TriangleSurface grow_wall(const TriangleSurface& lumen, const std::vector<double>& thickness,
-                          const std::vector<Opening>& openings, double spacing) {
-  const WallFunction wall(lengthened(lumen, thickness, openings, spacing));
-  auto outer = without_cavities(zero_surface(sample(wall, spacing)));
-  const auto normals = point_normals(outer);
-  for (std::size_t p = 0; p < outer.points.size(); ++p)
-    outer.points[p] = wall.settle(outer.points[p], normals[p], 0.3 * spacing);
+                          const std::vector<Opening>& openings, const GrowthSettings& settings) {
+  const double spacing = settings.spacing, fillet = settings.fillet;
+  const WallFunction wall(lengthened(lumen, thickness, openings, fillet + 4 * spacing));
+  // Closing: grown too far by the radius of the fillets and eroded by it again, the notches between vessels are round.
+  auto grid = sample(wall, fillet, spacing);
+  erode(TriangleTree(without_cavities(zero_surface(grid))), fillet, grid);
+  auto outer = without_cavities(zero_surface(grid));
+  const double beyond = wall.reach() + fillet + 3 * spacing;
   for (const auto& opening : openings)
-    outer = cut_end(outer, {opening.centre, opening.normal, rim_radius(lumen, opening) + wall.reach() + 3 * spacing});
-  return outer;
+    outer = cut_end(outer, {opening.centre, opening.normal, rim_radius(lumen, opening) + beyond});
+  // Contours are full of slivers, from which no curvature can be told.
+  const std::vector<double> sizes(outer.points.size(), 2 * spacing);
+  return remesh({outer, {}}, {TriangleTree(outer), {}, sizes}).surface;
 }
 
 }  // namespace tunica::stages::meshing

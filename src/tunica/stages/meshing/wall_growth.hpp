@@ -1,7 +1,7 @@
 // The outside of a wall that is grown from the lumen surface alone.
 //
-// It is the outer iso-surface of the distance to the lumen less the local thickness, so it cannot cross itself where
-// branches leave, and what lies between two lumens closer than their walls is solid: the flap.
+// It is an iso-surface of the distance to the lumen less the local thickness, so it cannot cross itself where branches
+// leave, and what lies between two lumens closer than their walls is solid: the flap.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,8 @@ struct GrowthSettings {
   double per_radius = 0.17;  ///< thickness over the radius of the vessel
   double thinnest = 1.2e-3;  ///< [m]
   double thickest = 2e-3;    ///< [m]
-  double spacing = 0.6e-3;   ///< of the distance samples [m]; the surface itself is moved to the exact distance
+  double fillet = 1e-3;      ///< radius by which notches between vessels are rounded [m], > 0
+  double spacing = 0.6e-3;   ///< of the distance samples [m]; below the thickness
 };
 
 /// Wall thickness [m] at each point of a lumen surface; arguments as of `grow_wall`. The radius of a vessel is that of
@@ -25,9 +26,9 @@ std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std:
                                         const GrowthSettings& settings);
 
 /// Outer surface [m] around a mended lumen surface with rims in the planes of `openings` (`flatten_rims`), open in the
-/// same planes, with outward normals. `thickness` [m]: one for each lumen point, above the spacing. Cavities inside the
-/// wall are filled. SolverError when the wall at an opening runs into another vessel.
+/// same planes, with outward normals. `thickness` [m]: one for each lumen point. Cavities inside the wall are filled
+/// and notches rounded. SolverError when the wall at an opening runs into another vessel.
 TriangleSurface grow_wall(const TriangleSurface& lumen, const std::vector<double>& thickness,
-                          const std::vector<Opening>& openings, double spacing);
+                          const std::vector<Opening>& openings, const GrowthSettings& settings);
 
 }  // namespace tunica::stages::meshing
