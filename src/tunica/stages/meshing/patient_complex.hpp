@@ -1,0 +1,50 @@
+// From a patient's surfaces to the labelled complex that the tetrahedral engine fills.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tunica/stages/meshing/conforming_surfaces.hpp"
+#include "tunica/stages/meshing/openings.hpp"
+#include "tunica/stages/meshing/size_field.hpp"
+#include "tunica/stages/meshing/surface_complex.hpp"
+
+namespace tunica::stages::meshing {
+
+/// Surfaces as they come from files (`read_surface`), open at the vessel ends.
+struct PatientSurfaces {
+  TriangleSurface lumen;
+  std::optional<TriangleSurface> outer;  ///< outside of the wall; none: the complex has no wall
+  std::vector<NamedPlace> names;         ///< of the openings; empty: called inlet and outlet_1, ... (`find_openings`)
+};
+
+struct ComplexOptions {
+  SizeSettings sizes;
+  Accuracy accuracy;
+  double clearance = 0.1e-3;            ///< smallest allowed distance between lumen and outer surface [m]
+  double thickness_reach = 6e-3;        ///< walls thicker than this [m] do not limit the edge length
+  Log log = [](const std::string&) {};  ///< gets what was mended, done and measured, one line each
+  std::filesystem::path spots;          ///< .vtp file for places of problems; empty: none is written
+};
+
+struct PreparedSurfaces {
+  SurfaceComplex complex;
+  SizeField sizes;                ///< edge length at any point, for the tetrahedra
+  TriangleSurface lumen;          ///< the mended and flattened lumen surface
+  Thickness thickness;            ///< of wall and flap, at the points of `lumen`
+  std::vector<Opening> openings;  ///< their loops refer to the mended surfaces
+};
+
+/// Mends both surfaces, flattens their rims, remeshes them and closes them with plane caps and rings. Patches:
+/// interface, wall_outer, and for each opening lumen_<name> and wall_<name>. InputError for surfaces that cannot be
+/// mended or do not fit together, SolverError when the remeshed ones are too far from the originals or cross.
+PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexOptions& options);
+
+/// Closes remeshed surfaces at their openings: the loop of a surface nearest to an opening is its rim. `outer` null: no
+/// wall.
+SurfaceComplex close_at_openings(const TriangleSurface& lumen, const TriangleSurface* outer,
+                                 const std::vector<Opening>& openings);
+
+}  // namespace tunica::stages::meshing

@@ -1,0 +1,242 @@
+#include "tunica/stages/meshing/wall_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tunica/base/error.hpp"
+#include "tunica/stages/meshing/contour.hpp"
+#include "tunica/stages/meshing/plane_cut.hpp"
+#include "tunica/stages/meshing/remesh.hpp"
+#include "tunica/stages/meshing/triangle_tree.hpp"
+
+namespace tunica::stages::meshing {
+
+namespace {
+
+/// Radius of the largest ball that touches the surface at `x` from inside (shrinking ball, Ma et al. 2012), moved away
+/// from the surface while that lets it grow: the normal at `x` only roughly points to the axis of the vessel.
+double inscribed_radius(const TriangleTree& tree, const Point& x, const Vec3<double>& outward, double largest) {
+  double radius = largest;
+  for (int i = 0; i < 20; ++i) {
+    const Point centre = x - radius * outward;
+    const auto q = tree.nearest(centre, radius * (1 - 1e-3));
+    if (!q) break;
+    const auto to_q = q.place - x;
+    // Close beside x it is roughness of the surface, not the other side of the vessel.
+    const double depth = -dot(to_q, outward);
+    if (depth < 0.3 * norm(to_q)) break;
+    radius = dot(to_q, to_q) / (2 * depth);
+  }
+  Point centre = x - radius * outward;
+  for (int i = 0; i < 8; ++i) {
+    const auto q = tree.nearest(centre);
+    const auto away = centre - q.place;
+    const Point next = centre + 0.05 * away;
+    const double there = tree.nearest(next).distance;
+    radius = std::max(q.distance, there);
+    if (there <= q.distance) break;
+    centre = next;
+  }
+  return std::min(radius, largest);
+}
+
+/// Averages over neighbours; the thickness of a wall has no steps.
+void smooth(const TriangleSurface& surface, int sweeps, std::vector<double>& values) {
+  const auto all = edges(surface);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    auto sum = values;
+    std::vector<double> count(values.size(), 1);
+    for (const auto& edge : all) {
+      sum[edge.a] += values[edge.b];
+      sum[edge.b] += values[edge.a];
+      ++count[edge.a];
+      ++count[edge.b];
+    }
+    for (std::size_t p = 0; p < values.size(); ++p) values[p] = sum[p] / count[p];
+  }
+}
+
+/// The lumen made longer at each opening and closed there, so that the wall goes on beyond the plane in which it is
+/// cut.
+struct Body {
+  TriangleSurface surface;
+  std::vector<double> thickness;
+};
+
+Body lengthened(const TriangleSurface& lumen, const std::vector<double>& thickness,
+                const std::vector<Opening>& openings, double margin) {
+  Body body{lumen, thickness};
+  auto& [points, triangles] = body.surface;
+  for (const auto& opening : openings) {
+    const auto& rim = opening.lumen;
+    double longest = 0;
+    for (const auto p : rim) longest = std::max(longest, thickness[p]);
+    const double length = 2 * longest + margin;
+    const auto first = std::ssize(points), n = std::ssize(rim);
+    Point end{{0, 0, 0}};
+    for (const auto p : rim) {
+      points.push_back(points[p] + length * opening.normal);
+      end = end + (1.0 / static_cast<double>(n)) * points.back();
+      body.thickness.push_back(thickness[p]);
+    }
+    points.push_back(end);
+    body.thickness.push_back(longest);
+    for (std::int64_t i = 0; i < n; ++i) {
+      const auto j = (i + 1) % n;
+      triangles.push_back({rim[j], rim[i], first + i});
+      triangles.push_back({rim[j], first + i, first + j});
+      triangles.push_back({first + j, first + i, first + n});
+    }
+  }
+  return body;
+}
+
+/// Distance to the body less the thickness.
+class WallFunction {
+ public:
+  explicit WallFunction(Body body) : tree_(std::move(body.surface), body.thickness) {
+    const auto [least, most] = std::minmax_element(body.thickness.begin(), body.thickness.end());
+    least_ = *least;
+    reach_ = *most;
+  }
+  const TriangleTree& tree() const { return tree_; }
+  double reach() const { return reach_; }
+
+  /// Exact within `band` of the value zero outside the body, elsewhere of the right sign.
+  double operator()(const Point& x, double band) const {
+    const auto nearest = tree_.nearest(x);
+    if (tree_.is_behind(x, nearest)) return -nearest.distance - least_;
+    if (nearest.distance - reach_ > band) return nearest.distance - reach_;
+    if (nearest.distance - least_ < -band) return nearest.distance - least_;
+    return tree_.offset(x, nearest.distance).distance;
+  }
+
+ private:
+  TriangleTree tree_;
+  double least_ = 0, reach_ = 0;  ///< smallest and largest thickness
+};
+
+Grid grid_around(const TriangleSurface& surface, double margin, double spacing) {
+  Point low = surface.points[0], high = low;
+  for (const auto& p : surface.points)
+    for (int d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  Grid grid{low - Vec3<double>{{margin, margin, margin}}, spacing, {}, {}};
+  for (int d = 0; d < 3; ++d) grid.size[d] = static_cast<std::int64_t>((high[d] - low[d] + 2 * margin) / spacing) + 2;
+  return grid;
+}
+
+/// Calls `visit(index, place)` for all samples, x fastest.
+template <class Visit>
+void for_each_place(const Grid& grid, Visit visit) {
+  for (std::int64_t k = 0; k < grid.size[2]; ++k)
+    for (std::int64_t j = 0; j < grid.size[1]; ++j)
+      for (std::int64_t i = 0; i < grid.size[0]; ++i) visit(grid.index(i, j, k), grid.place(i, j, k));
+}
+
+/// Distance less thickness, exact within two grid steps of `level`, of the right order elsewhere.
+Grid sample(const WallFunction& wall, double level, double spacing) {
+  const auto& body = wall.tree().surface();
+  const double exact = level + 2 * spacing, band = wall.reach() + exact;
+  auto grid = grid_around(body, band + 2 * spacing, spacing);
+  grid.values.assign(grid.size[0] * grid.size[1] * grid.size[2], 0);
+  std::vector<bool> due(grid.values.size(), false);
+  for (const auto& t : body.triangles) {
+    std::int64_t low[3], high[3];
+    for (int d = 0; d < 3; ++d) {
+      const auto [a, b] = std::minmax({body.points[t[0]][d], body.points[t[1]][d], body.points[t[2]][d]});
+      low[d] = std::max<std::int64_t>(0, std::llround((a - band - grid.origin[d]) / spacing));
+      high[d] = std::min<std::int64_t>(grid.size[d] - 1, std::llround((b + band - grid.origin[d]) / spacing));
+    }
+    for (auto k = low[2]; k <= high[2]; ++k)
+      for (auto j = low[1]; j <= high[1]; ++j)
+        for (auto i = low[0]; i <= high[0]; ++i) due[grid.index(i, j, k)] = true;
+  }
+  // The band has no gaps, so along a row the sign changes only inside it.
+  for_each_place(grid, [&, side = 1.0](std::int64_t at, const Point& x) mutable {
+    const double value = due[at] ? wall(x, exact) : side * band;
+    grid.values[at] = static_cast<float>(value - level);
+    side = value < 0 ? -1 : 1;
+  });
+  return grid;
+}
+
+/// Turns samples of the distance to a surface `depth` outside the wanted one into samples of that distance to the
+/// wanted one: `outside` is the surface, and what lies deeper than `depth` below it is inside.
+void erode(const TriangleTree& outside, double depth, Grid& grid) {
+  const double band = 2 * grid.spacing;
+  for_each_place(grid, [&](std::int64_t at, const Point& x) {
+    auto& value = grid.values[at];
+    if (value >= 0)
+      value = static_cast<float>(depth);
+    else if (value < -depth - band)
+      value = static_cast<float>(-band);
+    else
+      value = static_cast<float>(depth - std::min(depth + band, outside.nearest(x, depth + band).distance));
+  });
+}
+
+/// Drops the parts that enclose cavities: their normals point inward, to the positive side.
+TriangleSurface without_cavities(const TriangleSurface& surface) {
+  const auto part = components(surface);
+  std::map<std::int64_t, TriangleSurface> parts;
+  for (std::size_t t = 0; t < part.size(); ++t) parts[part[t]].triangles.push_back(surface.triangles[t]);
+  TriangleSurface result;
+  for (auto& [number, one] : parts) {
+    one.points = surface.points;
+    drop_unused_points(one);
+    if (enclosed_volume(one) > 0) append(result, one);
+  }
+  return result;
+}
+
+double rim_radius(const TriangleSurface& lumen, const Opening& opening) {
+  double radius = 0;
+  for (const auto p : opening.lumen) radius = std::max(radius, norm(lumen.points[p] - opening.centre));
+  return radius;
+}
+
+}  // namespace
+
+std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std::vector<Opening>& openings,
+                                        const GrowthSettings& settings) {
+  const std::vector<double> uniform(lumen.points.size(), settings.thickest);
+  if (settings.thinnest == settings.thickest) return uniform;
+  auto coarse = settings;
+  coarse.spacing = 2 * settings.spacing;
+  const auto outer = grow_wall(lumen, uniform, openings, coarse);
+  const auto normals = point_normals(outer);
+  const TriangleTree tree(outer);
+  const double largest = settings.thickest / settings.per_radius + settings.thickest;
+  std::vector<double> radii;
+  for (std::size_t p = 0; p < outer.points.size(); ++p)
+    radii.push_back(inscribed_radius(tree, outer.points[p], normals[p], largest) - settings.thickest);
+  std::vector<double> result;
+  for (const auto& x : lumen.points) {
+    const double radius = tree.interpolate(radii, tree.nearest(x));
+    result.push_back(std::clamp(settings.per_radius * radius, settings.thinnest, settings.thickest));
+  }
+  smooth(lumen, 5, result);
+  return result;
+}
+
+TriangleSurface grow_wall(const TriangleSurface& lumen, const std::vector<double>& thickness,
+                          const std::vector<Opening>& openings, const GrowthSettings& settings) {
+  const double spacing = settings.spacing, fillet = settings.fillet;
+  const WallFunction wall(lengthened(lumen, thickness, openings, fillet + 4 * spacing));
+  // Closing: grown too far by the radius of the fillets and eroded by it again, the notches between vessels are round.
+  auto grid = sample(wall, fillet, spacing);
+  erode(TriangleTree(without_cavities(zero_surface(grid))), fillet, grid);
+  auto outer = without_cavities(zero_surface(grid));
+  const double beyond = wall.reach() + fillet + 3 * spacing;
+  for (const auto& opening : openings)
+    outer = cut_end(outer, {opening.centre, opening.normal, rim_radius(lumen, opening) + beyond});
+  // Contours are full of slivers, from which no curvature can be told.
+  const std::vector<double> sizes(outer.points.size(), 2 * spacing);
+  return remesh({outer, {}}, {TriangleTree(outer), {}, sizes}).surface;
+}
+
+}  // namespace tunica::stages::meshing

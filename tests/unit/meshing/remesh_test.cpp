@@ -1,0 +1,137 @@
+#include "tunica/stages/meshing/remesh.hpp"
+
+#include "small_surfaces.hpp"
+#include "tunica/stages/meshing/caps.hpp"
+#include "tunica/stages/meshing/conforming_surfaces.hpp"
+#include "tunica/stages/meshing/self_intersections.hpp"
+#include "tunica/stages/meshing/size_field.hpp"
+
+namespace tunica::stages::meshing {
+namespace {
+
+using namespace test;
+
+Remeshed remeshed(const TriangleSurface& surface, double size) {
+  const Original original{TriangleTree(surface), find_creases(surface),
+                          std::vector<double>(surface.points.size(), size)};
+  return remesh({surface, original.creases}, original);
+}
+
+/// Volume of a tube along z, closed by discs: its ends are plane.
+double tube_volume(const TriangleSurface& surface) {
+  auto closed = surface;
+  for (const auto& loop : boundary_loops(surface)) {
+    std::vector<Point> rim;
+    for (const auto p : loop) rim.push_back(surface.points[p]);
+    append(closed, plane_cap(rim, {}, {{0, 0, rim[0][2] > 1e-3 ? 1.0 : -1.0}}));
+  }
+  return enclosed_volume(closed);
+}
+
+TEST(Remesh, EdgesGetTheWantedLength) {
+  const auto surface = tube(5e-3, 20e-3, 120, 60);
+  const auto mesh = remeshed(surface, 1e-3).surface;
+  EXPECT_GT(smallest_angle_degrees(mesh), 25);
+  double mean = 0;
+  const auto all = edges(mesh);
+  for (const auto& e : all) {
+    const double length = norm(mesh.points[e.a] - mesh.points[e.b]);
+    mean += length / static_cast<double>(all.size());
+    EXPECT_LT(length, 1.6e-3);
+    EXPECT_GT(length, 0.5e-3);
+  }
+  EXPECT_NEAR(mean, 1e-3, 0.15e-3);
+}
+
+TEST(Remesh, KeepsVolumeRimsAndTopology) {
+  const auto surface = tube(5e-3, 20e-3, 120, 60);
+  const auto mesh = remeshed(surface, 2e-3).surface;
+  // Inscribed, the volume would be 2.6 % too small.
+  EXPECT_NEAR(tube_volume(mesh) / (M_PI * 25e-6 * 20e-3), 1, 2e-3);
+  const auto loops = boundary_loops(mesh);
+  EXPECT_EQ(loops.size(), 2u);
+  EXPECT_EQ(genus(mesh, 2), 0);
+  for (const auto& loop : loops)
+    for (const auto p : loop) EXPECT_NEAR(std::abs(mesh.points[p][2] - 10e-3), 10e-3, 1e-12);
+}
+
+TEST(Remesh, FollowsSizesThatVary) {
+  const auto surface = tube(5e-3, 30e-3, 120, 90);
+  std::vector<double> sizes;
+  for (const auto& p : surface.points) sizes.push_back(0.5e-3 + p[2] / 20);
+  const auto mesh = remesh({surface, {}}, {TriangleTree(surface), {}, sizes}).surface;
+  EXPECT_GT(smallest_angle_degrees(mesh), 20);
+  for (const auto& e : edges(mesh)) {
+    const double wanted = 0.5e-3 + 0.5 * (mesh.points[e.a][2] + mesh.points[e.b][2]) / 20;
+    EXPECT_LT(norm(mesh.points[e.a] - mesh.points[e.b]), 1.8 * wanted);
+  }
+}
+
+TEST(Remesh, KeepsCreases) {
+  auto square = tube(5e-3, 20e-3, 64, 32, 0);
+  for (auto& p : square.points) {
+    const double stretch = 5e-3 / std::max(std::abs(p[0]), std::abs(p[1]));
+    p[0] *= stretch;
+    p[1] *= stretch;
+  }
+  EXPECT_GT(find_creases(square).size(), 100u);
+  const auto mesh = remeshed(square, 1.5e-3);
+  EXPECT_GT(mesh.creases.size(), 40u);
+  for (const auto& [a, b] : mesh.creases)
+    for (const auto p : {a, b}) {
+      EXPECT_NEAR(std::abs(mesh.surface.points[p][0]), 5e-3, 1e-9);
+      EXPECT_NEAR(std::abs(mesh.surface.points[p][1]), 5e-3, 1e-9);
+    }
+  EXPECT_NEAR(tube_volume(mesh.surface), 1e-4 * 20e-3, 1e-9);
+}
+
+TEST(Remesh, BothSidesOfAThinFlapStayApart) {
+  const auto surface = dissected_tube();
+  ASSERT_EQ(genus(surface, 2), 1);
+  const auto mesh = remeshed(surface, 3e-3).surface;  // coarser than the flap is thick
+  EXPECT_EQ(genus(mesh, 2), 1);
+  EXPECT_TRUE(crossing_triangles(mesh).empty());
+  const TriangleTree tree(mesh);
+  for (const auto& x : {Point{{2e-3, 0, 0}}, Point{{-2e-3, 0, 0}}}) EXPECT_NEAR(tree.nearest(x).distance, 1e-3, 0.2e-3);
+}
+
+TEST(CrossingTriangles, FoundAmongTouchingOnes) {
+  EXPECT_TRUE(crossing_triangles(tube(1, 2, 16, 8)).empty());
+  TriangleSurface two{{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0.2, 0.2, -1}}, {{0.2, 0.2, 1}}, {{2, 2, 0}}},
+                      {{0, 1, 2}, {3, 4, 5}}};
+  EXPECT_EQ(crossing_triangles(two).size(), 1u);
+  two.triangles[1] = {0, 3, 4};  // through a shared corner
+  EXPECT_EQ(crossing_triangles(two).size(), 1u);
+  two.triangles[1] = {0, 1, 3};
+  EXPECT_TRUE(crossing_triangles(two).empty());
+  two.points[3] = {{0.3, 0.3, 0}};  // folded onto the first
+  EXPECT_EQ(crossing_triangles(two).size(), 1u);
+}
+
+TEST(RemeshTogether, RefinesUntilSurfacesAreNearAndDoNotCross) {
+  // A gap of 0.2 mm, edges of 3 mm: the coarse meshes would cross.
+  std::vector<Sheet> sheets;
+  for (const auto& surface : {tube(5e-3, 10e-3, 90, 30), tube(5.2e-3, 10e-3, 90, 30)})
+    sheets.push_back({{TriangleTree(surface), {}, std::vector<double>(surface.points.size(), 4e-3)}, {}, {}});
+  std::vector<std::string> lines;
+  remesh_together(sheets, {}, 0.3, [&](const std::string& line) { lines.push_back(line); });
+  EXPECT_GT(lines.size(), 1u);
+  TriangleSurface all = sheets[0].mesh.surface;
+  append(all, sheets[1].mesh.surface);
+  EXPECT_TRUE(crossing_triangles(all).empty());
+  for (const auto& sheet : sheets) EXPECT_LE(sheet.distance, 0.5e-3);
+}
+
+TEST(RemeshTogether, SaysWhereItFails) {
+  std::vector<Sheet> sheets;
+  const auto surface = tube(5e-3, 10e-3, 90, 30);
+  for (int i = 0; i < 2; ++i)  // twice the same place
+    sheets.push_back({{TriangleTree(surface), {}, std::vector<double>(surface.points.size(), 2e-3)}, {}, {}});
+  Accuracy accuracy;
+  accuracy.rounds = 1;
+  const auto text = message_of<SolverError>([&] { remesh_together(sheets, accuracy, 0.3, [](const std::string&) {}); });
+  EXPECT_TRUE(says(text, "pairs of triangles cross, near (")) << text;
+}
+
+}  // namespace
+}  // namespace tunica::stages::meshing

@@ -1,0 +1,103 @@
+// Surfaces of a few thousand triangles for the tests of the meshing stage.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "tunica/base/error.hpp"
+#include "tunica/stages/meshing/contour.hpp"
+#include "tunica/stages/meshing/plane_cut.hpp"
+#include "tunica/stages/meshing/triangle_surface.hpp"
+
+namespace tunica::stages::meshing::test {
+
+/// An open tube along z with outward normals, its corners on the circle; every other row is turned by `shift` of a
+/// step.
+inline TriangleSurface tube(double radius, double length, int around, int along, double shift = 0.5) {
+  TriangleSurface surface;
+  for (int k = 0; k <= along; ++k)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * M_PI * (i + shift * (k % 2)) / around;
+      surface.points.push_back({{radius * std::cos(angle), radius * std::sin(angle), length * k / along}});
+    }
+  for (int k = 0; k < along; ++k)
+    for (int i = 0; i < around; ++i) {
+      const std::int64_t a = k * around + i, b = k * around + (i + 1) % around, c = a + around, d = b + around;
+      if (k % 2 == 0) {
+        surface.triangles.push_back({a, b, c});
+        surface.triangles.push_back({b, d, c});
+      } else {
+        surface.triangles.push_back({a, d, c});
+        surface.triangles.push_back({a, b, d});
+      }
+    }
+  return surface;
+}
+
+/// Contour of value 0 of `value` in the box around the origin with half sizes `half`.
+template <class Function>
+TriangleSurface contour(const Vec3<double>& half, double spacing, const Function& value) {
+  Grid grid{-1.0 * half, spacing, {}, {}};
+  for (int d = 0; d < 3; ++d) grid.size[d] = static_cast<std::int64_t>(2 * half[d] / spacing) + 1;
+  for (std::int64_t k = 0; k < grid.size[2]; ++k)
+    for (std::int64_t j = 0; j < grid.size[1]; ++j)
+      for (std::int64_t i = 0; i < grid.size[0]; ++i)
+        grid.values.push_back(static_cast<float>(value(grid.place(i, j, k))));
+  return zero_surface(grid);
+}
+
+/// A tube of 10 mm radius and 60 mm length, open at both ends, that a flap of 2 mm with round rims parts over its
+/// middle 30 mm: two lumens that communicate above and below, genus 1.
+inline TriangleSurface dissected_tube() {
+  auto surface = contour({{13e-3, 13e-3, 38e-3}}, 0.93e-3, [](const Point& x) {
+    const double vessel = std::max(std::hypot(x[0], x[1]) - 10e-3, std::abs(x[2]) - 34e-3);
+    const double flap = std::hypot(x[0], std::max(std::abs(x[2]) - 14e-3, 0.0)) - 1e-3;
+    return std::max(vessel, -flap);
+  });
+  surface = cut_end(surface, {{{0, 0, 30e-3}}, {{0, 0, 1}}, 14e-3});
+  return cut_end(surface, {{{0, 0, -30e-3}}, {{0, 0, -1}}, 14e-3});
+}
+
+inline double smallest_angle_degrees(const TriangleSurface& surface) {
+  double smallest = M_PI;
+  for (const auto& t : surface.triangles) smallest = std::min(smallest, smallest_angle(surface, t));
+  return smallest * 180 / M_PI;
+}
+
+/// The message of the Error that `action` throws, empty when it throws none.
+template <class Error, class Action>
+std::string message_of(const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A folder of this test, removed at its end.
+class Folder {
+ public:
+  Folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path = std::filesystem::temp_directory_path() /
+           ("tunica_" + std::to_string(getpid()) + "_" + test->test_suite_name() + "_" + test->name());
+    std::filesystem::create_directories(path);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::filesystem::path path;
+};
+
+}  // namespace tunica::stages::meshing::test
