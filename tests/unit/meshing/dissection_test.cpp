@@ -52,7 +52,7 @@ TEST(ParametricDissection, ImpossibleOnesAreRefusedWithTheReason) {
       {"left_subclavian: {position: 160 mm}", "dissected part"},
       {"celiac: {position: 350 mm}", "dissected part"},
       {"celiac: {position: 449 mm}", "beyond an end"},
-      {"brachiocephalic: {length: 10 mm, inclination: -60 deg, angle: 0}", "too near the aorta"},
+      {"brachiocephalic: {length: 10 mm, inclination: -60 deg, angle: 0 deg}", "too near the aorta"},
       {"iliacs: {radius: 9 mm}", "iliacs.radius"},
       {"iliacs: {angle: 15 deg, length: 20 mm}", "apart"},
   };
