@@ -8,9 +8,12 @@
 namespace tunica::app {
 
 void add_check(CLI::App& app);
+void add_material(CLI::App& app);
+void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_run(CLI::App& app);
 void add_schema(CLI::App& app);
+void add_verify(CLI::App& app);
 
 }  // namespace tunica::app

@@ -26,10 +26,13 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.\n"
       "More about a subcommand: tunica <subcommand> --help");
   tunica::app::add_check(app);
+  tunica::app::add_material(app);
+  tunica::app::add_mesh(app);
   tunica::app::add_picture(app);
   tunica::app::add_plot(app);
   tunica::app::add_run(app);
   tunica::app::add_schema(app);
+  tunica::app::add_verify(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {  // how a subcommand returns another exit code

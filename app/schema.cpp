@@ -1,9 +1,11 @@
-// tunica schema: the reference of the case file.
+// tunica schema: the reference of the case file and of the material file.
 #include <cstdio>
 #include <memory>
 
 #include "commands.hpp"
 #include "tunica/stages/case.hpp"
+#include "tunica/stages/material_case.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
 
 namespace tunica::app {
 
@@ -13,12 +15,16 @@ void add_schema(CLI::App& app) {
       "Examples:\n  tunica schema > case-file.md\n  tunica schema --json > tunica.schema.json\n"
       "An editor that knows YAML completes and checks case files that begin with the line\n"
       "  # yaml-language-server: $schema=tunica.schema.json");
-  const auto json = std::make_shared<bool>(false);
+  const auto json = std::make_shared<bool>(false), material = std::make_shared<bool>(false),
+             mesh = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "As JSON Schema instead of Markdown");
-  command->callback([json] {
-    const auto schema = stages::Case::schema();
-    const config::Description& description = *schema.description();
-    std::fputs((*json ? config::json_schema(description) : config::markdown(description)).c_str(), stdout);
+  auto* of_material = command->add_flag("--material", *material, "Of the file of `tunica material` instead");
+  command->add_flag("--mesh", *mesh, "Of the file of `tunica mesh` instead")->excludes(of_material);
+  command->callback([json, material, mesh] {
+    const auto description = *material ? stages::MaterialCase::schema().description()
+                             : *mesh   ? stages::meshing::MeshCase::schema().description()
+                                       : stages::Case::schema().description();
+    std::fputs((*json ? config::json_schema(*description) : config::markdown(*description)).c_str(), stdout);
   });
 }
 

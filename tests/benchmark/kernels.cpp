@@ -80,8 +80,8 @@ struct Setting {
   void run_wall(const coupling::WallModel::Group& group, bool tangent, bool mixed) {
     auto settings = wall_model.element_settings();
     settings.mixed = mixed;
-    coupling::element_loops(isa).wall(group.view(), fields(), settings, {1e4, 1e-4, 1e4},
-                                      {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
+    coupling::element_loops(isa).wall.assemble(group.view(), fields(), settings, {1e4, 1e-4, 1e4},
+                                               {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
   }
   void assemble() {
     matrix.set_zero();

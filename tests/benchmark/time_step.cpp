@@ -1,7 +1,10 @@
 // Whole time steps of fluid-structure interaction: seconds, iterations, memory, and where the time goes.
 //
-//   benchmark_time_step pipe_fsi|tube_50k|tube_300k [steps] [linear tolerance]
+//   benchmark_time_step pipe_fsi|tube_50k|tube_300k [steps] [linear tolerance] [neo_hooke|dfd|both]
 //   mpirun -n 2 benchmark_time_step pipe_fsi 3 1e-6
+//
+// dfd: a wall with two families of dispersed fibres by the default rule; both: each step with either wall in turn, and
+// the ratio of their times.
 //
 // The tubes are generated; tube_300k takes a time step that is smaller by the ratio of the edge lengths, so that the
 // Courant numbers agree. pipe_fsi is read where the data folder is present.
@@ -11,7 +14,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/problem.hpp"
@@ -44,6 +50,26 @@ mesh::MeshData read_pipe() {
   return mesh::join(parts, std::span(&pair, 1), {}).data;
 }
 
+wall::LawParameters wall_law(const std::string& name) {
+  if (name == "neo_hooke") {
+    wall::NeoHookeParameters law;
+    law.elastic.young_modulus = 1e6;
+    law.elastic.poisson_ratio = 0.3;
+    return law;
+  }
+  if (name != "dfd") throw InputError("benchmark_time_step", "'" + name + "' is not a wall", "neo_hooke, dfd or both");
+  wall::DfdParameters law;
+  law.elastic.young_modulus = 1e6;
+  law.elastic.poisson_ratio = 0.3;
+  for (const double angle : {0.6, -0.6}) {
+    wall::dfd::Family family;
+    family.energy = {60e3, 12.0};
+    family.orientation = wall::dfd::Bivariate{2.5, 15.0, angle};
+    law.families.push_back(family);
+  }
+  return law;
+}
+
 // Physics of the pipe_fsi case (docs/verification.md) on every mesh.
 Setting make_setting(const std::string& name, bool root) {
   Setting s;
@@ -67,10 +93,7 @@ Setting make_setting(const std::string& name, bool root) {
   s.input.wall = wall::Parameters{};
   s.input.wall->density = 1000;
   s.input.wall->volumetric_energy = wall::VolumetricEnergy::miehe;
-  wall::NeoHookeParameters law;
-  law.elastic.young_modulus = 1e6;
-  law.elastic.poisson_ratio = 0.3;
-  s.input.wall->material = law;
+  s.input.wall->fibre_frame = wall::CylindricalFrame{};
   bc::Fixed sliding;
   sliding.directions = {false, false, true, false, false};
   s.input.boundary.fluid = s.input.fluid;
@@ -84,49 +107,76 @@ Setting make_setting(const std::string& name, bool root) {
   return s;
 }
 
-void run(const std::string& name, int steps, double tolerance) {
+/// A problem and what its steps took.
+struct Candidate {
+  Candidate(std::string law, const mesh::DistributedMesh& mesh, coupling::ProblemInput input) : name(std::move(law)) {
+    input.wall->material = wall_law(name);
+    problem = std::make_unique<coupling::Problem>(mesh, input);
+    state = problem->initial_state();
+  }
+
+  void advance(double dt, bool print) {
+    const auto report = problem->advance(state, dt);
+    if (!report.converged) throw SolverError("step " + std::to_string(state.step + 1) + ": " + report.failure);
+    const auto& t = report.timings;
+    newton += static_cast<int>(report.iterations.size()), linear += report.linear_iterations();
+    sum.total += t.total, sum.assembly += t.assembly, sum.set_up += t.set_up, sum.linear += t.linear;
+    sum.mesh += t.mesh;
+    if (!print) return;
+    std::printf("%-9s step %ld: %.2f s, Newton %zu, linear", name.c_str(), static_cast<long>(state.step), t.total,
+                report.iterations.size());
+    for (const auto& i : report.iterations) std::printf(" %d", i.linear_iterations);
+    std::printf(", mesh");
+    for (const auto& i : report.iterations) std::printf(" %d", i.mesh_iterations);
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+
+  void summarise(int steps, double elements) const {
+    std::printf(
+        "%s: per step %.2f s; per tetrahedron and Newton iteration %.2f us; linear iterations per solve %.1f\n"
+        "share: assembly %.0f %%, preconditioner set-up %.0f %%, linear solve %.0f %%, mesh motion %.0f %%\n",
+        name.c_str(), sum.total / steps, 1e6 * sum.total / newton / elements, static_cast<double>(linear) / newton,
+        100 * sum.assembly / sum.total, 100 * sum.set_up / sum.total, 100 * sum.linear / sum.total,
+        100 * sum.mesh / sum.total);
+  }
+
+  std::string name;
+  std::unique_ptr<coupling::Problem> problem;
+  coupling::State state;
+  int newton = 0, linear = 0;
+  coupling::StepTimings sum;
+};
+
+void run(const std::string& name, int steps, double tolerance, const std::string& walls) {
   const MPI_Comm comm = MPI_COMM_WORLD;
   const bool root = parallel::rank(comm) == 0;
   Setting s = parallel::agree(comm, [&] { return make_setting(name, root); });
   s.input.linear.tolerance = tolerance;
   const auto mesh = mesh::distribute(s.data, comm);
   s.data = {};
-  coupling::Problem problem(mesh, s.input);
-  auto state = problem.initial_state();
+  std::vector<Candidate> candidates;
+  for (const std::string law : {"neo_hooke", "dfd"})
+    if (walls == "both" || walls == law) candidates.emplace_back(law, mesh, s.input);
+  if (candidates.empty()) wall_law(walls);  // throws
   if (root)
     std::printf("%s: %ld nodes, %ld tetrahedra, %d ranks, %s, dt %.3g s, linear tolerance %.0e\n", name.c_str(),
                 static_cast<long>(mesh.global_nodes), static_cast<long>(mesh.global_elements), parallel::size(comm),
                 assembly::name(assembly::choose_isa()), s.dt, tolerance);
-  double total = 0;
-  int newton = 0, linear = 0;
-  coupling::StepTimings sum;
-  for (int k = 0; k < steps; ++k) {
-    const auto report = problem.advance(state, s.dt);
-    if (!report.converged) throw SolverError("step " + std::to_string(k + 1) + ": " + report.failure);
-    const auto& t = report.timings;
-    if (root) {
-      std::printf("step %d: %.2f s, Newton %zu, linear", k + 1, t.total, report.iterations.size());
-      for (const auto& i : report.iterations) std::printf(" %d", i.linear_iterations);
-      std::printf(", mesh");
-      for (const auto& i : report.iterations) std::printf(" %d", i.mesh_iterations);
-      std::printf("\n");
-      std::fflush(stdout);
-    }
-    total += t.total, newton += static_cast<int>(report.iterations.size()), linear += report.linear_iterations();
-    sum.assembly += t.assembly, sum.set_up += t.set_up, sum.linear += t.linear, sum.mesh += t.mesh;
-  }
+  for (int k = 0; k < steps; ++k)
+    for (Candidate& candidate : candidates) candidate.advance(s.dt, root);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double memory = parallel::global_sum(comm, 1024.0 * static_cast<double>(usage.ru_maxrss));
   if (!root) return;
   const auto elements = static_cast<double>(mesh.global_elements);
-  std::printf(
-      "per step %.2f s; per tetrahedron and Newton iteration %.2f us; linear iterations per solve %.1f\n"
-      "share: assembly %.0f %%, preconditioner set-up %.0f %%, linear solve %.0f %%, mesh motion %.0f %%\n"
-      "peak memory %.2f GB, %.2f kB per tetrahedron\n",
-      total / steps, 1e6 * total / newton / elements, static_cast<double>(linear) / newton, 100 * sum.assembly / total,
-      100 * sum.set_up / total, 100 * sum.linear / total, 100 * sum.mesh / total, 1e-9 * memory,
-      1e-3 * memory / elements);
+  for (const Candidate& candidate : candidates) candidate.summarise(steps, elements);
+  std::printf("peak memory %.2f GB, %.2f kB per tetrahedron\n", 1e-9 * memory, 1e-3 * memory / elements);
+  if (candidates.size() < 2) return;
+  const auto& [first, second] = std::tie(candidates[0], candidates[1]);
+  std::printf("dfd / neo_hooke: step %.3f, Newton iteration %.3f, assembly of an iteration %.3f\n",
+              second.sum.total / first.sum.total, second.sum.total / second.newton * first.newton / first.sum.total,
+              second.sum.assembly / second.newton * first.newton / first.sum.assembly);
 }
 
 }  // namespace
@@ -138,7 +188,8 @@ int main(int argc, char** argv) {
     const parallel::Session session;
     try {
       if (argc < 2) throw InputError("benchmark_time_step", "no name given", "pipe_fsi, tube_50k or tube_300k");
-      run(argv[1], argc > 2 ? std::atoi(argv[2]) : 3, argc > 3 ? std::atof(argv[3]) : 1e-6);
+      run(argv[1], argc > 2 ? std::atoi(argv[2]) : 3, argc > 3 ? std::atof(argv[3]) : 1e-6,
+          argc > 4 ? argv[4] : "neo_hooke");
     } catch (const std::exception& e) {
       std::fprintf(stderr, "%s\n", e.what());
       status = 1;

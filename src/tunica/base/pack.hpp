@@ -101,20 +101,20 @@ TUNICA_INLINE bool any(const Mask& mask) {
   return bits != 0;
 }
 
-/// Is a lane above zero? With the instructions, since any() takes every lane of the mask out of the register.
-TUNICA_INLINE bool any_positive(double x) { return x > 0.0; }
+/// Is a lane above `limit`? With the instructions, since any() takes every lane of the mask out of the register.
+TUNICA_INLINE bool any_above(double x, double limit) { return x > limit; }
 template <int W>
-TUNICA_INLINE bool any_positive(const Pack<W>& x) {
+TUNICA_INLINE bool any_above(const Pack<W>& x, const Pack<W>& limit) {
 #if defined(__AVX512F__)
-  if constexpr (W == 8) return _mm512_cmp_pd_mask((__m512d)x.v, _mm512_setzero_pd(), _CMP_GT_OQ) != 0;
+  if constexpr (W == 8) return _mm512_cmp_pd_mask((__m512d)x.v, (__m512d)limit.v, _CMP_GT_OQ) != 0;
 #endif
 #if defined(__AVX__)
-  if constexpr (W == 4) return _mm256_movemask_pd((__m256d)(x.v > 0.0)) != 0;
+  if constexpr (W == 4) return _mm256_movemask_pd((__m256d)(x.v > limit.v)) != 0;
 #endif
 #if defined(__SSE2__)
-  if constexpr (W == 2) return _mm_movemask_pd((__m128d)(x.v > 0.0)) != 0;
+  if constexpr (W == 2) return _mm_movemask_pd((__m128d)(x.v > limit.v)) != 0;
 #endif
-  return any(x.v > 0.0);
+  return any(x.v > limit.v);
 }
 
 TUNICA_INLINE double max(double a, double b) { return a > b ? a : b; }

@@ -51,8 +51,8 @@ constexpr auto symbols = std::to_array<Symbol>({
     {"l", 1e-3, dimension::volume, "cmu"},
     {"J", 1.0, {1, 2, -2}, "mu"},
     {"W", 1.0, {1, 2, -3}, "m"},
-    {"rad", 1.0, dimension::none, "m"},
-    {"deg", std::numbers::pi / 180.0, dimension::none, ""},
+    {"rad", 1.0, dimension::angle, "m"},
+    {"deg", std::numbers::pi / 180.0, dimension::angle, ""},
     {"%", 0.01, dimension::none, ""},
     {"1", 1.0, dimension::none, ""},
 });
@@ -86,6 +86,7 @@ struct Named {
 
 constexpr auto named = std::to_array<Named>({
     {dimension::none, "number", ""},
+    {dimension::angle, "angle", "rad, deg"},
     {dimension::length, "length", "m, cm, mm, um"},
     {dimension::area, "area", "m^2, cm^2, mm^2"},
     {dimension::volume, "volume", "m^3, cm^3, mm^3, L, ml"},
@@ -220,6 +221,7 @@ class UnitParser {
     unit.dimension.kilogram += power * symbol->dimension.kilogram;
     unit.dimension.metre += power * symbol->dimension.metre;
     unit.dimension.second += power * symbol->dimension.second;
+    unit.dimension.radian += power * symbol->dimension.radian;
     return std::nullopt;
   }
 
@@ -320,7 +322,7 @@ std::string si_unit(const Dimension& d) {
   const std::vector<std::string> units = split_usual(d);
   if (!units.empty()) return units.front();
   std::string text;
-  for (const auto& [symbol, power] : {std::pair{"kg", d.kilogram}, {"m", d.metre}, {"s", d.second}})
+  for (const auto& [symbol, power] : {std::pair{"kg", d.kilogram}, {"m", d.metre}, {"s", d.second}, {"rad", d.radian}})
     if (power != 0)
       text += fmt::format("{}{}{}", text.empty() ? "" : " ", symbol, power == 1 ? "" : fmt::format("^{}", power));
   return text;

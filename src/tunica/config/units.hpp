@@ -13,16 +13,18 @@
 
 namespace tunica::config {
 
-/// Exponents of kilogram, metre, second.
+/// Exponents of kilogram, metre, second, and of the radian, so that an angle in degrees is not taken for a number.
 struct Dimension {
   int kilogram = 0;
   int metre = 0;
   int second = 0;
+  int radian = 0;
   friend constexpr bool operator==(const Dimension&, const Dimension&) = default;
 };
 
 namespace dimension {
-inline constexpr Dimension none{0, 0, 0};  // also angles, in radians
+inline constexpr Dimension none{0, 0, 0};
+inline constexpr Dimension angle{0, 0, 0, 1};
 inline constexpr Dimension length{0, 1, 0};
 inline constexpr Dimension area{0, 2, 0};
 inline constexpr Dimension volume{0, 3, 0};
@@ -48,7 +50,7 @@ struct UnitError {
   std::string remedy;
 };
 
-/// SI value of a number with unit. A dimensionless quantity is a bare number (or a number in %, deg, rad); a bare
+/// SI value of a number with unit. A dimensionless quantity is a bare number (or a number in %); a bare
 /// number where a unit is due is an error.
 std::variant<double, UnitError> parse_quantity(std::string_view text, const Dimension& due);
 

@@ -43,8 +43,8 @@ struct BoundaryInput {
 
 class Boundaries {
  public:
-  /// Throws InputError for an unknown face or a table that cannot be read; whether every face has one fitting condition is
-  /// for the caller to check (bc::check_boundary). Collective.
+  /// Throws InputError for an unknown face or a table that cannot be read; whether every face has one fitting condition
+  /// is for the caller to check (bc::check_boundary). Collective.
   Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockPattern& pattern, const BoundaryInput& input);
 
   /// Free motions of nodes in the (v, p) system.

@@ -51,7 +51,7 @@ struct WallGroupView {
   wall::LawKind kind;
   std::span<const wall::Law* const> laws;
   const double* weights = nullptr;  ///< of the laws [batch][law][lane], null for one law
-  const double* bodies = nullptr;   ///< density, K, shear modulus at rest [batch][3][lane]
+  const double* bodies = nullptr;   ///< density, K, shear modulus at rest and present one [batch][4][lane]
   const double* frames = nullptr;   ///< e1 and e2 of the fibre frame [batch][6][lane], null for global axes
 };
 
@@ -67,16 +67,23 @@ using FluidLoop = void (*)(const BatchView&, const FieldsView&, const fluid::Par
 using WallLoop = void (*)(const WallGroupView&, const FieldsView&, const WallElementSettings&,
                           const wall::Coefficients&, const LoopTarget&);
 
+/// Writes the present modulus (1.16) of every lane, [batch][lane].
+using ModulusLoop = void (*)(const WallGroupView&, const FieldsView&, double* modulus);
+
+struct WallLoops {
+  WallLoop assemble;
+  ModulusLoop modulus;
+};
 struct ElementLoops {
   FluidLoop fluid;
-  WallLoop wall;
+  WallLoops wall;
 };
 
 /// Instantiated in fluid_loop_<isa>.cpp and wall_loop_<isa>.cpp.
 template <int W>
 FluidLoop fluid_loop();
 template <int W>
-WallLoop wall_loop();
+WallLoops wall_loops();
 
 ElementLoops element_loops(assembly::Isa isa);
 

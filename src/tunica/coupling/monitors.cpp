@@ -124,8 +124,7 @@ void Monitors::wall_elements(StepRecord& record) const {
       Vec3<double> X[4], velocity[4], x[4];
       gather(f.reference_position, nodes, X);
       gather(f.velocity_pressure, nodes, velocity);
-      wall::ElementState<double> s{
-          .reference = model.reference(i, e, X), .displacement = {}, .acceleration = {}, .pressure = {}};
+      wall::ElementState<double> s = model.at_rest(i, e, X);
       gather(f.displacement, nodes, s.displacement);
       for (int a = 0; a < 4; ++a) {
         s.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];

@@ -7,27 +7,26 @@ namespace tunica::coupling {
 
 namespace {
 
-/// Edges from node 0 in the fibre frame, given as e1 and e2; node 0 becomes the origin.
+/// Reference of a batch, in its fibre frames [e1, e2][component][lane] if there are any.
 template <int W>
-TUNICA_INLINE void rotate_to_frame(const double* frame, Vec3<Pack<W>> (&x)[4]) {
+TUNICA_INLINE void set_reference_of(const WallGroupView& group, std::int32_t batch, const Vec3<Pack<W>> (&X)[4],
+                                    wall::ElementState<Pack<W>>& state) {
+  if (group.frames == nullptr) return wall::set_reference(state, X);
+  const double* frame = group.frames + static_cast<std::ptrdiff_t>(batch) * 6 * W;
   Vec3<Pack<W>> e1, e2;
   for (int i = 0; i < 3; ++i) {
     e1[i] = Pack<W>::load(frame + i * W);
     e2[i] = Pack<W>::load(frame + (3 + i) * W);
   }
-  const Vec3<Pack<W>> e3 = cross(e1, e2);
-  for (int a = 1; a < 4; ++a) {
-    const Vec3<Pack<W>> edge = x[a] - x[0];
-    x[a] = {{dot(e1, edge), dot(e2, edge), dot(e3, edge)}};
-  }
-  for (int i = 0; i < 3; ++i) x[0][i] = Pack<W>(0.0);
+  wall::set_reference(state, X, e1, e2);
 }
 
 /// The blend of one batch as the kernels want it.
 template <int W, wall::LawKind kind>
-TUNICA_INLINE auto law_of(const WallGroupView& group, std::int32_t batch, const Pack<W>& shear_modulus) {
+TUNICA_INLINE auto law_of(const WallGroupView& group, std::int32_t batch) {
+  const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 4 * W;
   if constexpr (kind == wall::LawKind::linear) {
-    return wall::NeoHookeOf<Pack<W>>{shear_modulus};
+    return wall::NeoHookeOf<Pack<W>>{Pack<W>::load(values + 2 * W)};
   } else {
     using Law =
         std::conditional_t<kind == wall::LawKind::unsplit, wall::UnsplitBlendedLaw<Pack<W>>, wall::BlendedLaw<Pack<W>>>;
@@ -36,7 +35,8 @@ TUNICA_INLINE auto law_of(const WallGroupView& group, std::int32_t batch, const 
     law.weights = group.weights == nullptr ? nullptr
                                            : group.weights + static_cast<std::ptrdiff_t>(batch) *
                                                                  static_cast<std::ptrdiff_t>(group.laws.size()) * W;
-    law.shear_modulus = shear_modulus;
+    law.shear_modulus = Pack<W>::load(values + 2 * W);
+    law.stabilising_modulus = Pack<W>::load(values + 3 * W);
     return law;
   }
 }
@@ -51,17 +51,15 @@ void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const 
     wall::ElementState<Pack<W>> state;
     Vec3<Pack<W>> position[4], velocity[4];
     gather_vectors<W>(fields.reference_position, nodes, position);
-    if (group.frames != nullptr)
-      rotate_to_frame<W>(group.frames + static_cast<std::ptrdiff_t>(batch) * 6 * W, position);
-    state.reference = fe::gradients(position);
+    set_reference_of<W>(group, batch, position, state);
     gather_vectors<W>(fields.displacement, nodes, state.displacement);
     gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
     gather_vectors<W>(fields.velocity_pressure, nodes, velocity, state.pressure);
-    const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 3 * W;
+    const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 4 * W;
     const wall::BodyOf<Pack<W>> body{.density = Pack<W>::load(values),
                                      .volumetric = {settings.volumetric_energy, Pack<W>::load(values + W)},
                                      .stabilisation = settings.stabilisation};
-    const auto law = law_of<W, kind>(group, batch, Pack<W>::load(values + 2 * W));
+    const auto law = law_of<W, kind>(group, batch);
     const int used = used_lanes<W>(batches, batch);
     fe::ElementVector<Pack<W>> r;
     if constexpr (with_tangent) {
@@ -117,11 +115,36 @@ void wall(const WallGroupView& group, const FieldsView& fields, const WallElemen
   }
 }
 
+template <int W, wall::LawKind kind>
+void modulus_of_kind(const WallGroupView& group, const FieldsView& fields, double* modulus) {
+  for (std::int32_t batch = 0; batch < group.batches.batches; ++batch) {
+    const std::int32_t* nodes = group.batches.nodes + static_cast<std::ptrdiff_t>(batch) * 4 * W;
+    wall::ElementState<Pack<W>> state;
+    Vec3<Pack<W>> position[4];
+    gather_vectors<W>(fields.reference_position, nodes, position);
+    set_reference_of<W>(group, batch, position, state);
+    gather_vectors<W>(fields.displacement, nodes, state.displacement);
+    wall::present_modulus(state, law_of<W, kind>(group, batch)).store(modulus + static_cast<std::ptrdiff_t>(batch) * W);
+  }
+}
+
+template <int W>
+void modulus(const WallGroupView& group, const FieldsView& fields, double* target) {
+  switch (group.kind) {
+    case wall::LawKind::linear:
+      return modulus_of_kind<W, wall::LawKind::linear>(group, fields, target);
+    case wall::LawKind::isochoric:
+      return modulus_of_kind<W, wall::LawKind::isochoric>(group, fields, target);
+    case wall::LawKind::unsplit:
+      return modulus_of_kind<W, wall::LawKind::unsplit>(group, fields, target);
+  }
+}
+
 }  // namespace
 
 template <int W>
-WallLoop wall_loop() {
-  return &wall<W>;
+WallLoops wall_loops() {
+  return {&wall<W>, &modulus<W>};
 }
 
 }  // namespace tunica::coupling

@@ -1,5 +1,5 @@
 #include "tunica/coupling/wall_loop.inl.hpp"
 
 namespace tunica::coupling {
-template WallLoop wall_loop<4>();
+template WallLoops wall_loops<4>();
 }

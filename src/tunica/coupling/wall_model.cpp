@@ -76,6 +76,8 @@ WallModel::WallModel(const mesh::DistributedMesh& mesh, const wall::Parameters& 
         for (const std::size_t m : present) b.laws.push_back(&laws_[m]);
       }
       region.blend.push_back(blend->second);
+      region.present_modulus.push_back(
+          blended(shear_moduli_, blends_[blend->second], weights_.data() + region.weights[e]));
     }
   }
 }
@@ -98,6 +100,7 @@ WallModel::ElementMaterial WallModel::material(std::size_t region, std::int32_t 
   m.law.laws = blend.laws;
   m.law.weights = blend.laws.size() == 1 ? nullptr : weights;
   m.law.shear_modulus = blended(shear_moduli_, blend, weights);
+  m.law.stabilising_modulus = regions_[region].present_modulus[element];
   m.body = {.density = blended(densities_, blend, weights),
             .volumetric = {volumetric_energy_, blended(bulk_moduli_, blend, weights)},
             .stabilisation = stabilisation_};
@@ -111,16 +114,17 @@ double WallModel::weight(std::size_t region, std::int32_t element, std::size_t m
   return weights_[regions_[region].weights[element] + static_cast<std::size_t>(found - present.begin())];
 }
 
-fe::Gradients<double> WallModel::reference(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const {
-  if (regions_[region].frames.empty()) return fe::gradients(X);
-  const double* frame = regions_[region].frames.data() + 6 * static_cast<std::size_t>(element);
-  const Vec3<double> e1{{frame[0], frame[1], frame[2]}}, e2{{frame[3], frame[4], frame[5]}}, e3 = cross(e1, e2);
-  Vec3<double> x[4];
-  for (int a = 0; a < 4; ++a) {
-    const Vec3<double> edge = X[a] - X[0];
-    x[a] = {{dot(e1, edge), dot(e2, edge), dot(e3, edge)}};
+wall::ElementState<double> WallModel::at_rest(std::size_t region, std::int32_t element,
+                                              const Vec3<double> (&X)[4]) const {
+  wall::ElementState<double> state{};
+  if (regions_[region].frames.empty()) {
+    wall::set_reference(state, X);
+  } else {
+    const double* frame = regions_[region].frames.data() + 6 * static_cast<std::size_t>(element);
+    wall::set_reference(state, X, Vec3<double>{{frame[0], frame[1], frame[2]}},
+                        Vec3<double>{{frame[3], frame[4], frame[5]}});
   }
-  return fe::gradients(x);
+  return state;
 }
 
 WallGroupView WallModel::Group::view() const {
@@ -145,6 +149,7 @@ std::vector<WallModel::Group> WallModel::groups(const mesh::DistributedMesh& mes
     for (auto& [b, list] : elements) {
       const Blend& blend = blends_[b];
       Group group;
+      group.region = region;
       group.batches = make_batches(mesh, mesh.regions[region], std::move(list), pattern, width, split);
       group.kind = wall::kind_of(blend.laws);
       group.laws = blend.laws;
@@ -161,6 +166,7 @@ std::vector<WallModel::Group> WallModel::groups(const mesh::DistributedMesh& mes
             add(group.weights, [&](std::int32_t e) { return weights(e)[i]; });
         for (const auto* property : {&densities_, &bulk_moduli_, &shear_moduli_})
           add(group.bodies, [&](std::int32_t e) { return blended(*property, blend, weights(e)); });
+        add(group.bodies, [&](std::int32_t e) { return model.present_modulus[e]; });
         if (!model.frames.empty())
           for (std::size_t c = 0; c < 6; ++c)
             add(group.frames, [&](std::int32_t e) { return model.frames[6 * static_cast<std::size_t>(e) + c]; });
@@ -169,6 +175,20 @@ std::vector<WallModel::Group> WallModel::groups(const mesh::DistributedMesh& mes
     }
   }
   return result;
+}
+
+void WallModel::update_present_modulus(std::vector<Group>& groups, const FieldsView& fields, assembly::Isa isa) {
+  if (!mixed_) return;
+  const auto width = static_cast<std::size_t>(isa);
+  std::vector<double> modulus;
+  for (Group& group : groups) {
+    if (group.kind == wall::LawKind::linear) continue;
+    const auto& members = group.batches.elements_of_region;
+    modulus.resize(static_cast<std::size_t>(group.batches.batches()) * width);
+    element_loops(isa).wall.modulus(group.view(), fields, modulus.data());
+    for (std::size_t k = 0; k < modulus.size(); ++k) group.bodies[(k / width * 4 + 3) * width + k % width] = modulus[k];
+    for (std::size_t k = 0; k < members.size(); ++k) regions_[group.region].present_modulus[members[k]] = modulus[k];
+  }
 }
 
 }  // namespace tunica::coupling

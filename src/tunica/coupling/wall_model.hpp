@@ -32,8 +32,9 @@ class WallModel {
   };
   ElementMaterial material(std::size_t region, std::int32_t element) const;
 
-  /// Gradients with respect to the fibre frame, or the global axes where no law needs one.
-  fe::Gradients<double> reference(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const;
+  /// The element with the corners X [m] at rest: gradients in its fibre frame, or in global axes where no law needs
+  /// one.
+  wall::ElementState<double> at_rest(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const;
 
   /// e1 and e2 of the fibre frame of each element of a region, [element][6]; empty where no law needs one.
   const std::vector<double>& frames(std::size_t region) const { return regions_[region].frames; }
@@ -47,8 +48,9 @@ class WallModel {
     assembly::ElementBatches batches;
     wall::LawKind kind;
     std::vector<const wall::Law*> laws;
+    std::size_t region;           ///< of the mesh
     std::vector<double> weights;  ///< [batch][law][lane], empty for one law
-    std::vector<double> bodies;   ///< [batch][density, K, mu][lane]
+    std::vector<double> bodies;   ///< [batch][density, K, mu at rest, mu present][lane]
     std::vector<double> frames;   ///< [batch][6][lane], empty without frames
 
     WallGroupView view() const;
@@ -56,6 +58,10 @@ class WallModel {
   std::vector<Group> groups(const mesh::DistributedMesh& mesh, std::size_t region,
                             const assembly::BlockPattern& pattern, int width) const;
   WallElementSettings element_settings() const;
+
+  /// Takes the present modulus (1.16) of all elements from the displacement in `fields`, for the groups, which must be
+  /// this model's, and for material(). Only the stabilisation of the mixed element depends on it.
+  void update_present_modulus(std::vector<Group>& groups, const FieldsView& fields, assembly::Isa isa);
 
  private:
   struct Blend {
@@ -66,6 +72,7 @@ class WallModel {
     std::vector<std::int32_t> blend;   ///< [element] in blends_
     std::vector<std::size_t> weights;  ///< [element] begin in weights_
     std::vector<double> frames;
+    std::vector<double> present_modulus;  ///< [element] [Pa]
   };
   double blended(const std::vector<double>& of_material, const Blend& blend, const double* weights) const;
 

@@ -1,4 +1,4 @@
-// Reads the meshes that SimVascular exports.
+// Reads the meshes that SimVascular exports, and writes meshes of that form.
 #pragma once
 
 #include <filesystem>
@@ -38,5 +38,13 @@ struct SimVascularOptions {
 /// cell arrays that are absent or not finite, region numbers without a name and names without an element.
 LoadedMesh read_simvascular(const std::filesystem::path& folder, RegionKind kind, const std::string& name,
                             const SimVascularOptions& options);
+
+/// Writes the regions of one kind as a `mesh-complete` folder that read_simvascular reads back: the volume with
+/// GlobalNodeID, GlobalElementID and the cell array `region` (1, 2, ... in the order of `data.regions`), a file for
+/// each face, and all faces in one. Files of the same names are replaced, other faces there are removed. Coordinates
+/// are divided by `metres_per_unit`. Returns the region names in the order of their numbers. Throws SolverError when a
+/// file cannot be written.
+std::vector<std::string> write_simvascular(const std::filesystem::path& folder, const MeshData& data, RegionKind kind,
+                                           double metres_per_unit);
 
 }  // namespace tunica::mesh

@@ -8,6 +8,7 @@
 
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/wall_element.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/wall/output.hpp"
 
@@ -100,20 +101,10 @@ void OutputFields::compute_wall_stress(const State& state) {
   const coupling::WallModel& model = problem_.wall_model();
   for (auto& stress : stress_) {
     const auto region = static_cast<std::size_t>(stress.region);
-    const auto& elements = mesh.regions[region].elements;
     for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
-      Vec3<double> X[4];
-      wall::ElementState<double> s{};
-      for (int a = 0; a < 4; ++a) {
-        X[a] = mesh.points[elements[e][a]];
-        s.displacement[a] = vector_at(state.displacement.data(), elements[e][a]);
-        s.pressure[a] = state.velocity_pressure[at(elements[e][a]) + 3];
-      }
       const auto index = static_cast<std::int32_t>(e);
-      s.reference = model.reference(region, index, X);
-      const auto [law, body] = model.material(region, index);
       const auto sigma =
-          model.mixed() ? wall::mixed_cauchy_stress(s, law) : wall::displacement_cauchy_stress(s, law, body);
+          coupling::cauchy_stress(model, region, index, coupling::wall_element(mesh, model, state, region, index));
       stress.von_mises[e] = wall::von_mises(sigma);
       stress.principal[e] = wall::principal_stresses(sigma)[0];
     }

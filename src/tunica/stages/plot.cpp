@@ -153,8 +153,14 @@ std::string stroke_of(const Series& series, const char* colour) {
                      series.dashed ? " stroke-dasharray=\"6 4\"" : "");
 }
 
-std::string draw_marker(double x, double y, const char* colour) {
-  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"{}\"/>\n", x, y, colour);
+std::string draw_marker(double x, double y, const char* colour, bool hollow) {
+  const std::string look = hollow ? fmt::format("r=\"4.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"", colour)
+                                  : fmt::format("r=\"3.2\" fill=\"{}\"", colour);
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" {}/>\n", x, y, look);
+}
+
+const char* colour_of(const Series& series, std::size_t place) {
+  return colours[(series.colour < 0 ? place : static_cast<std::size_t>(series.colour)) % colours.size()];
 }
 
 std::string draw_series(const Series& series, const Axis& x, const Axis& y, const char* colour) {
@@ -167,14 +173,14 @@ std::string draw_series(const Series& series, const Axis& x, const Axis& y, cons
     }
     const double px = x.position(series.x[i]), py = y.position(series.y[i]);
     path += fmt::format("{}{:.2f} {:.2f}", pen_down ? "L" : "M", px, py);
-    if (series.markers) markers += draw_marker(px, py, colour);
+    if (series.markers) markers += draw_marker(px, py, colour, series.hollow);
     pen_down = true;
   }
   if (!series.line) return markers;
   return fmt::format("<path d=\"{}\" {} stroke-linejoin=\"round\"/>\n", path, stroke_of(series, colour)) + markers;
 }
 
-/// How many drawn points a legend in this corner would hide.
+/// How many drawn points lie in a rectangle, such as that of a legend.
 int points_within(const std::vector<Series>& series, const Axis& x, const Axis& y, double left, double top,
                   double width, double height) {
   int count = 0;
@@ -201,7 +207,7 @@ std::string draw_legend(const std::vector<Series>& series, const Axis& x, const 
   int fewest = std::numeric_limits<int>::max();
   for (const double at_x : {x.end - width - 8.0, x.begin + 8.0})
     for (const double at_y : {y.end + 8.0, y.begin - height - 8.0}) {
-      const int hidden = points_within(series, x, y, at_x, at_y, width, height);
+      const int hidden = points_within(series, x, y, at_x - 12.0, at_y - 12.0, width + 24.0, height + 24.0);
       if (hidden >= fewest) continue;
       fewest = hidden;
       left = at_x;
@@ -214,9 +220,9 @@ std::string draw_legend(const std::vector<Series>& series, const Axis& x, const 
   double at = top + 4.0 + 0.5 * legend_line;
   for (std::size_t i = 0; i < series.size(); ++i) {
     if (series[i].name.empty()) continue;
-    const char* colour = colours[i % colours.size()];
+    const char* colour = colour_of(series[i], i);
     if (series[i].line) svg += line_at(left + 8.0, at, left + 34.0, at, stroke_of(series[i], colour));
-    if (series[i].markers) svg += draw_marker(left + 21.0, at, colour);
+    if (series[i].markers) svg += draw_marker(left + 21.0, at, colour, series[i].hollow);
     svg += text_at(left + 40.0, at + 4.0, "start", series[i].name);
     at += legend_line;
   }
@@ -257,7 +263,7 @@ std::string draw_plot(const std::vector<Series>& series, const PlotOptions& opti
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
       options.width, options.height);
   svg += draw_frame(x, y, options);
-  for (std::size_t i = 0; i < series.size(); ++i) svg += draw_series(series[i], x, y, colours[i % colours.size()]);
+  for (std::size_t i = 0; i < series.size(); ++i) svg += draw_series(series[i], x, y, colour_of(series[i], i));
   return svg + draw_legend(series, x, y) + "</svg>\n";
 }
 

@@ -13,6 +13,8 @@ struct Series {
   bool line = true;
   bool markers = false;
   bool dashed = false;
+  bool hollow = false;  ///< markers are rings
+  int colour = -1;      ///< number in the palette of seven; -1: by the place in the list
 };
 
 struct PlotOptions {

@@ -73,6 +73,7 @@ struct BlendedLaw {
   std::span<const Law* const> laws;
   const double* weights = nullptr;  ///< [law][lane], summing to one; null for a single law
   T shear_modulus;                  ///< blended, at rest [Pa]
+  T stabilising_modulus;            ///< of the present state, (1.16) [Pa]
 
   TUNICA_INLINE T shear_modulus_at_rest() const { return shear_modulus; }
 

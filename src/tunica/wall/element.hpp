@@ -25,11 +25,12 @@
 // known only through its history, drifts over thousands of steps, and statics needs another kernel. The algebraic form
 // ties p to J itself at every step.
 //
-// tau_u = c h^2 / mu, with mu the law's shear modulus at rest and h^2 = 6 / sum_a |grad_X N_a|^2: the squared edge of a
-// regular tetrahedron, and close to the squared smallest height of a flat one.
+// tau_u = c h^2 / mu_s, with mu_s the law's shear modulus in the present state (1.16) and h^2 = 6 / sum_a |grad_X
+// N_a|^2: the squared edge of a regular tetrahedron, and close to the squared smallest height of a flat one.
 //
 // An inverted element (J <= 0) gives NaN, which Newton's method must take as a rejected step.
-// Axes: grad_X in any frame, also the element's fibre frame (material_concept.hpp); x, u, v in global axes.
+// Axes: grad_X in any frame, also the element's fibre frame (material_concept.hpp); x, u, v in global axes. F has
+// global axes on its left and those of the frame on its right; ElementState::axes leads from one to the other.
 #pragma once
 
 #include "tunica/fe/tetrahedron.hpp"
@@ -39,9 +40,10 @@
 namespace tunica::wall {
 
 /// Default of the stabilisation constant c. On the inflated incompressible thick cylinder (inner radius + 15 %), two to
-/// four isotropic elements through the wall, radius and hoop stress hardly depend on c from 0.03 to 1, while the
-/// pressure scatters by 8 % of the load at 0.03 and below 1 % from 0.3 on.
-inline constexpr double default_stabilisation = 0.3;
+/// four isotropic elements through the wall, radius and hoop stress of neo-Hooke hardly depend on c from 0.03 to 1, while
+/// the pressure scatters by 8 % of the load at 0.03. With dispersed fibres (a tube at 100 mmHg) and in the manufactured
+/// solutions the errors at 0.1 are half of those at 0.3.
+inline constexpr double default_stabilisation = 0.1;
 
 /// What the element needs besides the law. In a batch, density and K may differ between the lanes (`Scalar`).
 template <class Scalar>
@@ -56,10 +58,33 @@ using Body = BodyOf<double>;
 template <class T>
 struct ElementState {
   fe::Gradients<T> reference;       ///< gradients with respect to X [1/m], volume [m^3]
+  Mat3<T> axes = identity<T>();     ///< columns: the axes of these gradients in global components, orthonormal
   Vec3<T> displacement[fe::nodes];  ///< u at t_{n+alpha_f} [m]
   Vec3<T> acceleration[fe::nodes];  ///< v_dot at t_{n+alpha_m} [m/s^2]
   T pressure[fe::nodes];            ///< p at t_{n+1} [Pa], mixed element only
 };
+
+/// Gradients of the element with the corners X [m] in global axes.
+template <class T>
+TUNICA_INLINE void set_reference(ElementState<T>& e, const Vec3<T> (&X)[fe::nodes]) {
+  e.reference = fe::gradients(X);
+}
+
+/// The same in the orthonormal frame e1, e2, e1 x e2.
+template <class T>
+TUNICA_INLINE void set_reference(ElementState<T>& e, const Vec3<T> (&X)[fe::nodes], const Vec3<T>& e1,
+                                 const Vec3<T>& e2) {
+  const Vec3<T> e3 = cross(e1, e2), zero{{T(0.0), T(0.0), T(0.0)}};
+  Vec3<T> x[fe::nodes] = {zero, zero, zero, zero};
+#pragma GCC unroll 4
+  for (int a = 1; a < fe::nodes; ++a) {
+    const Vec3<T> edge = X[a] - X[0];
+    x[a] = {{dot(e1, edge), dot(e2, edge), dot(e3, edge)}};
+  }
+  e.reference = fe::gradients(x);
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) e.axes(i, 0) = e1[i], e.axes(i, 1) = e2[i], e.axes(i, 2) = e3[i];
+}
 
 /// Derivatives with respect to the unknown, and the factor of the constraint rows.
 struct Coefficients {
@@ -80,7 +105,7 @@ struct Kinematics {
 
 template <class T>
 TUNICA_INLINE Mat3<T> deformation_gradient(const ElementState<T>& e) {
-  Mat3<T> F = identity<T>();
+  Mat3<T> F = e.axes;
 #pragma GCC unroll 4
   for (int a = 1; a < fe::nodes; ++a) {
     const Vec3<T> edge = e.displacement[a] - e.displacement[0];  // exact zero for a translation
@@ -118,7 +143,24 @@ TUNICA_INLINE T subscale_compliance(const ElementState<T>& e, const L& law, cons
   T sum(0.0);
 #pragma GCC unroll 4
   for (int a = 0; a < fe::nodes; ++a) sum += dot(e.reference.dN[a], e.reference.dN[a]);
-  return T(6.0 * body.stabilisation) / (T(law.shear_modulus_at_rest()) * sum);
+  return T(6.0 * body.stabilisation) / (T(stabilising_modulus(law)) * sum);
+}
+
+/// Shear modulus that scales the stabilisation [Pa], (1.16): that at rest and what the curvature of the energy adds in
+/// the present state.
+template <class T, class L>
+TUNICA_INLINE T present_modulus(const ElementState<T>& e, const L& law) {
+  const T rest(law.shear_modulus_at_rest());
+  if constexpr (is_linear<L>) {
+    return rest;
+  } else {
+    const Mat3<T> F = deformation_gradient(e);
+    const Symmetric<T> C = right_cauchy_green(F), C_bar = pow(determinant(F), -2.0 / 3.0) * C;
+    T squared = squared_norm(response(law, C_bar).tangent, C_bar);
+    if constexpr (can_be_unsplit<L>)
+      if (law.has_unsplit_part()) squared += squared_norm(law.unsplit_response(C).tangent, C);
+    return rest + sqrt(T(1.0 / 45.0) * squared);
+  }
 }
 
 /// grad_X p [Pa/m].

@@ -40,6 +40,15 @@ concept Material = requires(const Law& law, const Symmetric<double>& C_bar, cons
   { law.shear_modulus_at_rest() } -> std::convertible_to<double>;
 };
 
+/// Modulus that scales the stabilisation of the mixed element [Pa]: that at rest, unless the law knows the present one.
+template <class Law>
+TUNICA_INLINE auto stabilising_modulus(const Law& law) {
+  if constexpr (requires { law.stabilising_modulus; })
+    return law.stabilising_modulus;
+  else
+    return law.shear_modulus_at_rest();
+}
+
 /// True where the energy is linear in C_bar, so that CC_bar = 0.
 template <class Law>
 inline constexpr bool is_linear = requires {

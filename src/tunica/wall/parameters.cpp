@@ -34,7 +34,7 @@ void check_regions(const Parameters& p, config::Problems& problems) {
       if (is_anisotropic(m))
         problems.add("fibre_frame", "is not given, but " + where + " has directions",
                      "say where circumferential and longitudinal are, for example `fibre_frame: {cylindrical: {origin: "
-                     "[0, 0, 0] mm, axis: [0, 0, 1]}}`");
+                     "[0 mm, 0 mm, 0 mm], axis: [0, 0, 1]}}`");
     });
   if (!p.regions.empty() && !p.smoothing_length)
     problems.add(
@@ -57,6 +57,17 @@ config::Schema<RegionMaterial> RegionMaterial::schema() {
       .section("material", &RegionMaterial::material, law_schema(), "Law of the region and its parameters");
 }
 
+config::Schema<VolumetricEnergy> volumetric_energy_schema() {
+  return config::Schema<VolumetricEnergy>("volumetric_energy", "Energy of a change of volume.")
+      .choice(
+          "volumetric_energy", [](VolumetricEnergy& energy) -> VolumetricEnergy& { return energy; },
+          {{"simo_taylor", VolumetricEnergy::simo_taylor},
+           {"quadratic", VolumetricEnergy::quadratic},
+           {"miehe", VolumetricEnergy::miehe}},
+          "K/4 (J^2 - 1 - 2 ln J), K/2 (J - 1)^2 or K (J - ln J - 1)")
+      .by_default();
+}
+
 config::Schema<Parameters> Parameters::schema() {
   return config::Schema<Parameters>("wall", "Solid wall.")
       .choice("element", &Parameters::element, {{"mixed", Element::mixed}, {"displacement", Element::displacement}},
@@ -75,12 +86,7 @@ config::Schema<Parameters> Parameters::schema() {
           "it jumps")
       .section("fibre_frame", &Parameters::fibre_frame, frame_schema(),
                "Circumferential, longitudinal and radial direction; for laws with fibres")
-      .choice("volumetric_energy", &Parameters::volumetric_energy,
-              {{"simo_taylor", VolumetricEnergy::simo_taylor},
-               {"quadratic", VolumetricEnergy::quadratic},
-               {"miehe", VolumetricEnergy::miehe}},
-              "K/4 (J^2 - 1 - 2 ln J), K/2 (J - 1)^2 or K (J - ln J - 1)")
-      .by_default()
+      .include(&Parameters::volumetric_energy, volumetric_energy_schema())
       .number("stabilisation", &Parameters::stabilisation, config::above(0),
               "Constant c of the mixed element's subscale, c h^2 / mu; larger damps pressure oscillations more")
       .by_default()

@@ -24,6 +24,9 @@ struct RegionMaterial {
   static config::Schema<RegionMaterial> schema();
 };
 
+/// The key volumetric_energy.
+config::Schema<VolumetricEnergy> volumetric_energy_schema();
+
 struct Parameters {
   Element element = Element::mixed;
   double density = 0.0;    ///< rho_0 [kg/m^3]

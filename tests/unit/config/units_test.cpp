@@ -65,9 +65,16 @@ TEST(Units, ReadsTheUnitsOfTheField) {
       {"-1 m", dimension::length, -1.0},
       {"0.5", dimension::none, 0.5},
       {"50 %", dimension::none, 0.5},
-      {"180 deg", dimension::none, 3.14159265358979},
+      {"180 deg", dimension::angle, 3.14159265358979},
   };
   for (const Case& c : cases) EXPECT_NEAR(si(c.text, c.dimension), c.value, 1e-12 * std::abs(c.value)) << c.text;
+}
+
+TEST(Units, AnglesAreNoNumbers) {
+  EXPECT_EQ(refused("35", dimension::angle).what, "`35` has no unit; an angle is due");
+  EXPECT_EQ(refused("35", dimension::angle).remedy, "use one of: rad, deg");
+  EXPECT_EQ(refused("35 deg", dimension::none).what, "`deg` is the unit of an angle, not of a number");
+  EXPECT_EQ(in_si(0.5, dimension::angle), "0.5 rad");
 }
 
 TEST(Units, RefusesABareNumberWithTheUsualUnits) {

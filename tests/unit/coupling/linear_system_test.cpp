@@ -41,7 +41,7 @@ struct FsiSystem {
         continue;
       }
       for (const auto& group : wall.groups(mesh, r, pattern, width))
-        element_loops(isa).wall(group.view(), fields.view(), wall.element_settings(),
+        element_loops(isa).wall.assemble(group.view(), fields.view(), wall.element_settings(),
                                 {s.acceleration_per_unknown(), s.displacement_per_unknown(),
                                  s.velocity_per_unknown() / s.displacement_per_unknown()},
                                 target);

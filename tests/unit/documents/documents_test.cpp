@@ -11,6 +11,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/stages/case.hpp"
+#include "tunica/stages/material_case.hpp"
 
 namespace tunica {
 namespace {
@@ -37,6 +38,20 @@ TEST(Documents, CaseFileOfTheReadmeIsValid) {
   } catch (const InputError& error) {
     FAIL() << error.what();
   }
+}
+
+TEST(Documents, MaterialFilesOfTheExamplesAreValid) {
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "examples"))
+    if (entry.path().filename() == "material.yaml") {
+      ++files;
+      try {
+        EXPECT_FALSE(stages::read_material_case(entry.path()).value.tests.empty());
+      } catch (const InputError& error) {
+        ADD_FAILURE() << error.what();
+      }
+    }
+  EXPECT_GT(files, 0);
 }
 
 TEST(Documents, CitedEquationsExist) {

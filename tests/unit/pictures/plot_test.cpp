@@ -77,5 +77,24 @@ TEST(Plot, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(write_plot("no/such/folder/plot.svg", {{"a", {1.0}, {1.0}}}, {}), InputError);
 }
 
+TEST(Plot, DrawsRingsInTheColourOfAnotherSeries) {
+  Series line{"curve", {0.0, 1.0}, {0.0, 1.0}}, rings = line, dots = line;
+  rings.line = dots.line = false;
+  rings.markers = dots.markers = rings.hollow = true;
+  rings.colour = 0;
+  const auto svg = draw_plot({line, rings, dots}, {});
+  EXPECT_EQ(count(svg, "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.5\""), 2 + 1) << "and one in the legend";
+  EXPECT_EQ(count(svg, "r=\"3.2\" fill=\"#009e73\""), 2 + 1) << "the third colour of the palette";
+}
+
+TEST(Plot, KeepsTheLegendAwayFromTheCurve) {
+  // The curve ends in the upper right corner, beside a legend that would be there.
+  const auto svg = draw_plot({{"law", {0.0, 1.0}, {0.0, 1.0}}}, {});
+  const auto box = svg.find("fill-opacity");
+  ASSERT_NE(box, std::string::npos);
+  const auto rectangle = svg.substr(svg.rfind("<rect", box), 40);
+  EXPECT_GT(std::stod(rectangle.substr(rectangle.find("y=\"") + 3)), 220.0) << rectangle;
+}
+
 }  // namespace
 }  // namespace tunica::stages

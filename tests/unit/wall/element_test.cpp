@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tunica/wall/output.hpp"
 #include "unit/wall/test_laws.hpp"
 
 namespace tunica::wall {
@@ -308,6 +309,50 @@ TEST(WallElement, InvertedElementGivesNaN) {
   EXPECT_TRUE(std::isnan(r.r[0][0]));
   mixed_residual(e, NeoHooke{2.0}, body_with(VolumetricEnergy::quadratic, 10.0), {}, r);
   EXPECT_TRUE(std::isnan(r.r[0][0]));
+}
+
+/// Forces do not know in which frame the gradients are stored, if the direction of the law is stated in it.
+TEST(WallElement, GradientsInAFrameGiveTheSameForces) {
+  std::mt19937 random(11);
+  const Body body{.density = 3.0, .volumetric = {VolumetricEnergy::simo_taylor, 500.0}};
+  const Vec3<double> e1{{0.36, 0.48, -0.8}}, e2{{-0.8, 0.6, 0.0}}, e3 = cross(e1, e2);
+  const Vec3<double> fibre{{0.6, 0.64, 0.48}}, in_frame{{dot(fibre, e1), dot(fibre, e2), dot(fibre, e3)}};
+  const test::FibreAlong global_law{fibre, 30.0, 20.0}, local_law{in_frame, 30.0, 20.0};
+  ElementState<double> global = some_state(random), local = global;
+  const Vec3<double> X[4] = {{{0, 0, 0}}, {{1.1, 0.1, 0}}, {{0.2, 0.9, 0.1}}, {{-0.1, 0.1, 1.2}}};
+  set_reference(global, X);
+  set_reference(local, X, e1, e2);
+  Vector r, r_local;
+  Matrix k, k_local;
+  const auto expect_equal = [&] {
+    for (int a = 0; a < 4; ++a)
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(r_local.r[a][i], r.r[a][i], 1e-11);
+        for (int b = 0; b < 4; ++b)
+          for (int j = 0; j < 3; ++j) EXPECT_NEAR(k_local.k[a][b][i][j], k.k[a][b][i][j], 1e-10);
+      }
+  };
+  displacement_tangent(global, global_law, body, {2.0, 0.5, 1.0}, r, k);
+  displacement_tangent(local, local_law, body, {2.0, 0.5, 1.0}, r_local, k_local);
+  expect_equal();
+  mixed_tangent(global, global_law, body, {2.0, 0.5, 1.0}, r, k);
+  mixed_tangent(local, local_law, body, {2.0, 0.5, 1.0}, r_local, k_local);
+  expect_equal();
+  const auto sigma = mixed_cauchy_stress(global, global_law), again = mixed_cauchy_stress(local, local_law);
+  for (int n = 0; n < 6; ++n) EXPECT_NEAR(again[n], sigma[n], 1e-11);
+}
+
+/// (1.16) on a fibre along e1 stretched to l with the energy k (I - 1)^2: CC_1111 = 8 k, so |F F CC F F| = 8 k l^4.
+TEST(WallElement, PresentModulusOfAFibre) {
+  const test::FibreAlong law{{{1.0, 0.0, 0.0}}, 15.0, 20.0};
+  const double l = 1.3, w = 1.0 / std::sqrt(l);
+  const Vec3<double> X[4] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
+  ElementState<double> e{};
+  set_reference(e, X);
+  EXPECT_NEAR(present_modulus(e, law), 20.0 + 120.0 / std::sqrt(45.0), 1e-12);
+  e.displacement[1] = {{l - 1.0, 0, 0}}, e.displacement[2] = {{0, w - 1.0, 0}}, e.displacement[3] = {{0, 0, w - 1.0}};
+  EXPECT_NEAR(present_modulus(e, law), 20.0 + 120.0 * l * l * l * l / std::sqrt(45.0), 1e-11);
+  EXPECT_EQ(present_modulus(e, NeoHooke{7.0}), 7.0);
 }
 
 TEST(WallElement, StabilisationUsesTheEdgeOfARegularTetrahedron) {

@@ -22,6 +22,20 @@ struct ExponentialFibre {
   double shear_modulus_at_rest() const { return shear_modulus; }
 };
 
+/// mu/2 (I1 - 3) + k (I - 1)^2 with the squared stretch I of a fibre along N, in the axes of the law.
+struct FibreAlong {
+  Vec3<double> N;
+  double stiffness, shear_modulus;
+  template <class T>
+  T energy(const Symmetric<T>& C) const {
+    T strain(-1.0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) strain += T(N[i] * N[j]) * C[voigt_index[i][j]];
+    return T(0.5 * shear_modulus) * (trace(C) - T(3.0)) + T(stiffness) * strain * strain;
+  }
+  double shear_modulus_at_rest() const { return shear_modulus; }
+};
+
 /// Neo-Hooke without its fast path.
 struct SlowNeoHooke {
   double shear_modulus;

@@ -13,7 +13,7 @@ class BandedNewton {
  public:
   BandedNewton(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters, std::vector<char> held)
       : mesh_(mesh),
-        parameters_(parameters),
+        model_(mesh, parameters),
         held_(std::move(held)),
         n_(3 * static_cast<std::size_t>(mesh.nodes())),
         matrix_(n_ * n_),
@@ -42,6 +42,8 @@ class BandedNewton {
     return most;
   }
 
+  const coupling::WallModel& model() const { return model_; }
+
  private:
   std::size_t begin(std::size_t k) const { return k > band_ ? k - band_ : 0; }
   std::size_t end(std::size_t k) const { return std::min(n_, k + band_ + 1); }
@@ -52,12 +54,13 @@ class BandedNewton {
     const auto add = [&](std::int32_t a, int i, std::int32_t b, int j, double value) {
       matrix_[(3 * static_cast<std::size_t>(a) + i) * n_ + 3 * static_cast<std::size_t>(b) + j] += value;
     };
-    const auto law = std::get<wall::NeoHooke>(parameters_.law());
-    for (const auto& nodes : mesh_.regions[0].elements) {
-      const ElementData e = gather(mesh_, state, nodes);
+    for (std::int32_t element = 0; element < std::ssize(mesh_.regions[0].elements); ++element) {
+      const ElementData e = gather(mesh_, model_, state, 0, element);
+      const auto& nodes = e.nodes;
       fe::ElementVector<double> r;
       fe::ElementMatrix<double> k;
-      wall::displacement_tangent(e.state, law, parameters_.body(), wall::Coefficients{}, r, k);
+      const auto [law, body] = model_.material(0, element);
+      wall::displacement_tangent(e.state, law, body, wall::Coefficients{}, r, k);
       for (int a = 0; a < 4; ++a)
         for (int i = 0; i < 3; ++i) {
           residual_[3 * static_cast<std::size_t>(nodes[a]) + i] += r.r[a][i];
@@ -97,7 +100,7 @@ class BandedNewton {
   }
 
   const mesh::DistributedMesh& mesh_;
-  const wall::Parameters& parameters_;
+  coupling::WallModel model_;
   std::vector<char> held_;
   std::size_t n_, band_ = 0;
   std::vector<double> matrix_, residual_;

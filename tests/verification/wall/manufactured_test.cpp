@@ -168,10 +168,9 @@ void for_each_point(const Visit& visit) {
 }
 
 template <class Motion>
-Errors errors(const mesh::DistributedMesh& mesh, const State& state, const Motion& motion,
-              const wall::Volumetric& volumetric) {
+Errors errors(const Problem& problem, const State& state, const Motion& motion, const wall::Volumetric& volumetric) {
   double sums[5] = {};  // |du|^2, |u|^2, |dF|^2, |F - I|^2, dp^2
-  for_each_element(mesh, state, [&](const ElementData& e) {
+  for_each_element(problem.mesh(), problem.wall_model(), state, [&](const ElementData& e) {
     const Mat3<double> F = wall::deformation_gradient(e.state);
     for_each_point([&](const double* barycentric, double weight) {
       const Vec3<double> X = point(e.X, barycentric, 4);
@@ -188,7 +187,7 @@ Errors errors(const mesh::DistributedMesh& mesh, const State& state, const Motio
       sums[4] += w * (p_h - s.p) * (p_h - s.p);
     });
   });
-  parallel::global_sum(mesh.comm, sums);
+  parallel::global_sum(problem.mesh().comm, sums);
   return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3]), std::sqrt(sums[4] / (L * L * L)) / mu};
 }
 
@@ -209,7 +208,7 @@ Errors solve(Element element, int n, const Motion& motion) {
   set_displacement(mesh, state, [&](const Vec3<double>& X) { return motion.position(X) - X; });
   const auto report = problem.solve_static(state, 1.0);
   EXPECT_TRUE(report.converged) << report.failure;
-  return errors(mesh, state, motion, volumetric);
+  return errors(problem, state, motion, volumetric);
 }
 
 /// `asked`: least orders of u in L2, grad u in L2 and p in L2 between the two finest meshes.

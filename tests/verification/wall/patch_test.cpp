@@ -44,8 +44,8 @@ void linear_displacement(Element element, double nu) {
   double stress_error = 0;
   Mat3<double> first{};
   bool have_first = false;
-  for_each_element(mesh, state, [&](const ElementData& e) {
-    const auto s = cauchy_stress(e, *problem.input().wall);
+  for_each_element(mesh, problem.wall_model(), state, [&](const ElementData& e) {
+    const auto s = cauchy_stress(e, problem.wall_model());
     if (!have_first) first = s, have_first = true;
     for (int k = 0; k < 9; ++k) stress_error = std::max(stress_error, std::abs(s(k / 3, k % 3) - first(k / 3, k % 3)));
   });
@@ -69,8 +69,8 @@ void uniform_traction(Element element, double nu) {
   State state = problem.initial_state();
   load(problem, state, 2);
   double error = 0;
-  for_each_element(mesh, state, [&](const ElementData& e) {
-    const auto s = cauchy_stress(e, *problem.input().wall);
+  for_each_element(mesh, problem.wall_model(), state, [&](const ElementData& e) {
+    const auto s = cauchy_stress(e, problem.wall_model());
     for (int k = 0; k < 9; ++k) error = std::max(error, std::abs(s(k / 3, k % 3) - (k == 0 ? tension : 0.0)));
   });
   error = parallel::global_max(mesh.comm, error) / tension;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tunica/coupling/problem.hpp"
+#include "tunica/coupling/wall_element.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/wall/output.hpp"
@@ -95,39 +96,33 @@ double largest(const mesh::DistributedMesh& mesh, const Function& value) {
 
 struct ElementData {
   Vec3<double> X[4];
-  wall::ElementState<double> state;
+  std::array<std::int32_t, 4> nodes;
+  wall::ElementState<double> state;  ///< gradients in the fibre frame, if the law has one
+  std::size_t region;
+  std::int32_t element;
 };
 
-inline ElementData gather(const mesh::DistributedMesh& mesh, const State& state,
-                          const std::array<std::int32_t, 4>& nodes) {
+inline ElementData gather(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
+                          std::size_t region, std::int32_t element) {
   ElementData e;
-  for (int a = 0; a < 4; ++a) {
-    e.X[a] = mesh.points[nodes[a]];
-    e.state.pressure[a] = state.velocity_pressure[at(nodes[a]) + 3];
-    for (int c = 0; c < 3; ++c) {
-      e.state.displacement[a][c] = state.displacement[at(nodes[a]) + c];
-      e.state.acceleration[a][c] = state.acceleration[at(nodes[a]) + c];
-    }
-  }
-  e.state.reference = fe::gradients(e.X);
+  e.nodes = mesh.regions[region].elements[element];
+  for (int a = 0; a < 4; ++a) e.X[a] = mesh.points[e.nodes[a]];
+  e.state = coupling::wall_element(mesh, model, state, region, element);
+  e.region = region, e.element = element;
   return e;
 }
 
 /// Calls visit(ElementData) for the wall elements that this rank counts.
 template <class Visit>
-void for_each_element(const mesh::DistributedMesh& mesh, const State& state, const Visit& visit) {
-  for (const auto& region : mesh.regions)
-    if (region.kind == mesh::RegionKind::wall)
-      for (std::int32_t k = 0; k < region.owned_elements; ++k) visit(gather(mesh, state, region.elements[k]));
+void for_each_element(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
+                      const Visit& visit) {
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r)
+    if (mesh.regions[r].kind == mesh::RegionKind::wall)
+      for (std::int32_t k = 0; k < mesh.regions[r].owned_elements; ++k) visit(gather(mesh, model, state, r, k));
 }
 
-inline Mat3<double> cauchy_stress(const ElementData& e, const wall::Parameters& p) {
-  const auto s = std::visit(
-      [&](const auto& law) {
-        return p.element == Element::mixed ? wall::mixed_cauchy_stress(e.state, law)
-                                           : wall::displacement_cauchy_stress(e.state, law, p.body());
-      },
-      p.law());
+inline Mat3<double> cauchy_stress(const ElementData& e, const coupling::WallModel& model) {
+  const auto s = coupling::cauchy_stress(model, e.region, e.element, e.state);
   return {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
 }
 

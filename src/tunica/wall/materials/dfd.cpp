@@ -49,8 +49,9 @@ config::Schema<Degradation> degradation_schema() {
   const config::Range angle = config::range(0.0, 1.5707963267949);
   return config::Schema<Degradation>("degradation",
                                      "Fibres weakened by the angle that they make with the radial direction.")
-      .number("from", &Degradation::from, angle, "Smallest angle from the radial direction e3")
-      .number("to", &Degradation::to, angle, "Largest angle from the radial direction e3")
+      .quantity("from", &Degradation::from, config::dimension::angle, angle,
+                "Smallest angle from the radial direction e3")
+      .quantity("to", &Degradation::to, config::dimension::angle, angle, "Largest angle from the radial direction e3")
       .number("factor", &Degradation::factor, config::range(0.0, 1.0), "What remains of them: 0 nothing, 1 all");
 }
 
@@ -60,8 +61,8 @@ config::Schema<dfd::Symmetric> dfd::Symmetric::schema() {
   return config::Schema<Symmetric>("von_mises", "Density that is rotationally symmetric about the mean direction.")
       .number("b", &Symmetric::concentration, config::at_least(0), "Concentration, 0 is isotropic")
       .plausible("0", "100")
-      .number(
-          "mean_angle", &Symmetric::mean_angle, fibre_angle_range(),
+      .quantity(
+          "mean_angle", &Symmetric::mean_angle, config::dimension::angle, fibre_angle_range(),
           "Mean direction in the plane of the wall, from circumferential towards longitudinal; or give mean_direction")
       .quantities("mean_direction", &Symmetric::mean_direction, config::dimension::none, config::anything(),
                   "Mean direction as components along e1 (circumferential), e2 (longitudinal), e3 (radial)")
@@ -75,8 +76,8 @@ config::Schema<dfd::Bivariate> dfd::Bivariate::schema() {
       .plausible("0", "100")
       .number("b", &Bivariate::out_of_plane, config::at_least(0), "Concentration about the plane, 0 is isotropic")
       .plausible("0", "500")
-      .number("mean_angle", &Bivariate::mean_angle, fibre_angle_range(),
-              "Mean direction, from circumferential towards longitudinal");
+      .quantity("mean_angle", &Bivariate::mean_angle, config::dimension::angle, fibre_angle_range(),
+                "Mean direction, from circumferential towards longitudinal");
 }
 
 config::Schema<dfd::Family> dfd::Family::schema() {

@@ -35,6 +35,11 @@ struct FibreEnergy {
   }
 };
 
+/// Strain above which a direction counts as pulling. At rest all strains are zero up to rounding; all directions then
+/// have the stiffness of a fibre that pulls, whatever the rounding, so that Newton's first step from rest is a short
+/// one.
+inline constexpr double switch_strain = -1e-12;
+
 /// Fibres that are excluded in compression have no strain there.
 template <class T>
 TUNICA_INLINE T admitted(const T& strain, bool tension_only) {

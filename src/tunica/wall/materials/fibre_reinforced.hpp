@@ -1,4 +1,4 @@
-// A neo-Hookean matrix with fibres in it, (1.1). The fibres follow either C_bar, as in the original laws, or C
+// A neo-Hookean matrix with fibres in it, (1.13). The fibres follow either C_bar, as in the original laws, or C
 // (unsplit, Nolan et al. 2014).
 #pragma once
 

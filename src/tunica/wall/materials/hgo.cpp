@@ -39,15 +39,15 @@ void check_dispersion(const GohParameters::Family& f, config::Problems& problems
 config::Schema<HgoParameters::Family> HgoParameters::Family::schema() {
   return config::Schema<Family>("family", "Aligned fibres.")
       .include(&Family::energy, fibre_energy_schema())
-      .number("mean_angle", &Family::mean_angle, fibre_angle_range(),
-              "Direction, from circumferential towards longitudinal");
+      .quantity("mean_angle", &Family::mean_angle, config::dimension::angle, fibre_angle_range(),
+                "Direction, from circumferential towards longitudinal");
 }
 
 config::Schema<GohParameters::Family> GohParameters::Family::schema() {
   return config::Schema<Family>("family", "Dispersed fibres.")
       .include(&Family::energy, fibre_energy_schema())
-      .number("mean_angle", &Family::mean_angle, fibre_angle_range(),
-              "Mean direction, from circumferential towards longitudinal")
+      .quantity("mean_angle", &Family::mean_angle, config::dimension::angle, fibre_angle_range(),
+                "Mean direction, from circumferential towards longitudinal")
       .number("kappa", &Family::kappa, config::range(0.0, 1.0 / 3.0),
               "Rotationally symmetric dispersion: 0 aligned, 1/3 isotropic; or give kappa_ip and kappa_op")
       .number("kappa_ip", &Family::kappa_ip, config::range(0.0, 1.0), "In-plane dispersion: 0 aligned, 1/2 isotropic")

@@ -48,7 +48,7 @@ struct StructureTensorFibres {
       const T e = family.energy.exponential(E);
       const T slope = T(2.0) * family.energy.slope(E, e);
       T curvature = T(4.0) * family.energy.curvature(E, e);
-      if (tension_only) curvature = select(raw > T(0.0), curvature, T(0.0));
+      if (tension_only) curvature = select(raw > T(switch_strain), curvature, T(0.0));
 #pragma GCC unroll 6
       for (int i = 0; i < voigt_size; ++i) {
         r.stress[i] += slope * T(family.H[i]);

@@ -1,0 +1,17 @@
+// One wall element of the distributed mesh in a given state: what outputs and tests look at.
+#pragma once
+
+#include "tunica/coupling/state.hpp"
+#include "tunica/coupling/wall_model.hpp"
+
+namespace tunica::coupling {
+
+/// The element with its reference in its fibre frame, displacement, acceleration and pressure.
+wall::ElementState<double> wall_element(const mesh::DistributedMesh& mesh, const WallModel& model, const State& state,
+                                        std::size_t region, std::int32_t element);
+
+/// Its Cauchy stress in global axes [Pa], Voigt 11 22 33 12 23 13.
+wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element,
+                                      const wall::ElementState<double>& state);
+
+}  // namespace tunica::coupling

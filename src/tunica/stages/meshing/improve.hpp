@@ -1,0 +1,35 @@
+// Better shapes for a finished mesh: nodes are moved and elements reconnected where angles are worst.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "tunica/stages/meshing/tetrahedra.hpp"
+
+namespace tunica::stages::meshing {
+
+/// Moves `p`, which is near the surface between two labels (outside = 0), onto it along `normal` (pointing from
+/// `from` to `to`); false when the surface is further away than `reach` [m] on either side.
+using Projection = std::function<bool(Point& p, const Point& normal, int from, int to, double reach)>;
+/// By bisection of the label function.
+Projection projection(const LabelDomain& domain);
+
+struct ImproveOptions {
+  double wanted_dihedral = 15;  ///< elements with a smaller (or larger than 180 - this) angle are worked on [degrees]
+  int most_passes = 8;
+  bool keep_layers = false;  ///< make no edge from one side of the wall to the other
+};
+
+struct Improvement {
+  int passes = 0;
+  Index moves = 0, reconnections = 0, collapses = 0, splits = 0;
+};
+
+/// Raises the worst sine of a dihedral angle around each node or reconnection; nothing gets worse. Inner nodes move
+/// freely, nodes of a surface along it, nodes of curves not at all. Labels, surfaces and their topology stay what they
+/// are. Elements keep positive volume. (Operations as in Klingner & Shewchuk 2008, Proc. 16th Meshing Roundtable,
+/// 3-23.)
+Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOptions& options,
+                    const std::function<void(const std::string&)>& tell);
+
+}  // namespace tunica::stages::meshing

@@ -1,0 +1,27 @@
+#include "tunica/stages/meshing/layers.hpp"
+
+#include <algorithm>
+
+#include "tunica/stages/meshing/local_mesh.hpp"
+#include "tunica/stages/meshing/reconnect.hpp"
+
+namespace tunica::stages::meshing {
+
+Index double_layers(Tetrahedra& mesh, std::vector<std::array<Index, 2>> bridges) {
+  const auto length = [&](const std::array<Index, 2>& e) { return norm(mesh.points[e[0]] - mesh.points[e[1]]); };
+  std::stable_sort(bridges.begin(), bridges.end(), [&](const auto& a, const auto& b) { return length(a) > length(b); });
+  LocalMesh local(mesh);
+  using Node = LocalMesh::Node;
+  std::vector<Node> added;
+  for (const auto& e : bridges) added.push_back(local.split(static_cast<Node>(e[0]), static_cast<Node>(e[1])));
+  // One new node for each edge is many more than a layer needs.
+  constexpr double least_sine = 0.2;  // 12 degrees: shapes that improve() can work with
+  Index removed = 0;
+  for (int sweep = 0; sweep < 3; ++sweep)
+    for (const Node n : added)
+      if (!local.star(n).empty() && merge_into_neighbour(local, n, least_sine)) ++removed;
+  mesh = local.extract();
+  return std::ssize(added) - removed;
+}
+
+}  // namespace tunica::stages::meshing

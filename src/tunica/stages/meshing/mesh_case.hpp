@@ -1,0 +1,51 @@
+// The file of `tunica mesh`: what is meshed, how finely, and where the result goes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <variant>
+
+#include "tunica/config/schema.hpp"
+#include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/meshing/parametric_dissection.hpp"
+
+namespace tunica::stages::meshing {
+
+using Geometry = std::variant<ParametricDissection>;
+
+struct Coarse {};
+struct Medium {};
+struct Full {};
+using Size = std::variant<Coarse, Medium, Full, double>;  ///< a number: edge length on the surfaces [m]
+double edge_length(const Size& size);                     ///< m
+
+struct MeshCase {
+  std::string title;
+  Geometry geometry;
+  Size size = Medium{};
+  double at_tears = 0.6;  ///< edge length at the rims of the tears, as a share of that elsewhere
+  int elements_through_wall = 1;
+  std::filesystem::path output;
+
+  static config::Schema<MeshCase> schema();
+};
+
+/// Throws InputError with all problems.
+config::Parsed<MeshCase> read_mesh_case(const std::filesystem::path& file);
+
+struct MadeMesh {
+  mesh::MeshData data;
+  std::string report_json, report_text;  ///< see mesh_report.hpp
+};
+/// One line for the terminal: what is going on.
+using Say = std::function<void(const std::string& line)>;
+
+/// Throws SolverError when the mesh does not become what it has to be.
+MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say);
+
+/// Makes the mesh and writes lumen/ and wall/ (SimVascular's layout, mm), report.json and meshes.yaml, the section for
+/// a case file. Returns the report as text. Throws InputError when there is a mesh already and `overwrite` is false.
+std::string mesh_to_files(const MeshCase& mesh_case, bool overwrite, const Say& say);
+
+}  // namespace tunica::stages::meshing

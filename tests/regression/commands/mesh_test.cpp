@@ -1,0 +1,80 @@
+// `tunica mesh`: exit codes, and the example of a dissection from its geometry to a first step of blood and wall.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace tunica::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string slurp(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class MeshCommand : public testing::Test {
+ protected:
+  MeshCommand() {
+    folder_ = fs::temp_directory_path() /
+              fmt::format("tunica_mesh_{}_{}", getpid(), testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  ~MeshCommand() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  int tunica(const std::string& arguments) const {
+    const int status =
+        std::system(fmt::format("cd {} && {} {} > out.txt 2>&1", folder_.string(), TUNICA_PROGRAM, arguments).c_str());
+    return WEXITSTATUS(status);
+  }
+  std::string printed() const { return slurp(folder_ / "out.txt"); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+
+  fs::path folder_;
+};
+
+TEST_F(MeshCommand, TwoForWrongInputWhichIsReportedAtOnce) {
+  write("mesh.yaml",
+        "geometry: {parametric: {aorta: {ascending_radius: 16}, flap: {turns: 7}, coeliac: {}}}\nsize: huge\n");
+  EXPECT_EQ(tunica("mesh mesh.yaml"), 2);
+  for (const char* text : {"ascending_radius", "turns", "coeliac", "huge"})
+    EXPECT_NE(printed().find(text), std::string::npos) << text << "\n" << printed();
+  write("mesh.yaml", "geometry: {parametric: {flap: {entry_tear: {area: 900 mm^2}}}}\n");
+  EXPECT_EQ(tunica("mesh mesh.yaml"), 2);
+  EXPECT_NE(printed().find("the flap there has a width"), std::string::npos) << printed();
+  EXPECT_EQ(tunica("mesh nowhere.yaml"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "mesh"));
+}
+
+TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
+  const fs::path example = fs::path(TUNICA_SOURCE_DIR) / "examples/dissection";
+  ASSERT_EQ(tunica(fmt::format("mesh {} -o mesh", (example / "mesh.yaml").string())), 0) << printed();
+  EXPECT_NE(printed().find("genus 1, manifold"), std::string::npos) << printed();
+  EXPECT_EQ(tunica(fmt::format("mesh {} -o mesh", (example / "mesh.yaml").string())), 2) << "a mesh is there";
+
+  std::string text = slurp(example / "case.yaml");
+  for (const std::string there = "../../out/dissection/"; text.find(there) != std::string::npos;)
+    text.erase(text.find(there), there.size());
+  write("case.yaml", text);
+  ASSERT_EQ(tunica("check case.yaml"), 0) << printed();
+  EXPECT_NE(printed().find("no errors, 0 warnings"), std::string::npos) << printed();
+  ASSERT_EQ(tunica("run case.yaml --until 1"), 0) << printed();
+  EXPECT_NE(printed().find("step 1/"), std::string::npos) << printed();
+
+  // What `tunica mesh` says about a case file is what the example has.
+  const std::string section = slurp(folder_ / "mesh/meshes.yaml");
+  const auto regions = section.substr(section.find("regions: {"),
+                                      section.find('}', section.find("regions: {")) - section.find("regions: {"));
+  EXPECT_NE(text.find(regions), std::string::npos) << section;
+}
+
+}  // namespace
+}  // namespace tunica::test

@@ -1,0 +1,108 @@
+#include "tunica/stages/meshing/improve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "block_vessel.hpp"
+#include "tunica/stages/meshing/layers.hpp"
+#include "tunica/stages/meshing/local_mesh.hpp"
+#include "tunica/stages/meshing/mesh_report.hpp"
+
+namespace tunica::stages::meshing {
+namespace {
+
+double worst(const Tetrahedra& mesh) {
+  double sine = 1;
+  for (const auto& t : mesh.elements)
+    sine = std::min(sine, worst_sine(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]));
+  return sine;
+}
+
+/// A ball of radius 4 mm in a box of 10 mm: one curved surface, a plane one whose edges must not move.
+LabelDomain ball_in_box() {
+  LabelDomain domain;
+  domain.label = [](const Point& p) {
+    for (int i = 0; i < 3; ++i)
+      if (p[i] < 0 || p[i] > 0.01) return outside;
+    return norm(p - Point{{5e-3, 5e-3, 5e-3}}) < 4e-3 ? lumen_label : wall_label;
+  };
+  return domain;
+}
+
+TEST(Improve, MendsNodesThatWereShakenInside) {
+  const auto box = mesh::box(10, 10, 10, {{0.01, 0.01, 0.01}}, mesh::RegionKind::wall);
+  Tetrahedra mesh{box.points, box.tetrahedra, std::vector<int>(box.tetrahedra.size(), wall_label),
+                  std::vector<bool>(box.points.size(), false)};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shift(-0.33e-3, 0.33e-3);
+  for (auto& p : mesh.points)
+    if (p[0] > 1e-6 && p[1] > 1e-6 && p[2] > 1e-6 && p[0] < 0.00999 && p[1] < 0.00999 && p[2] < 0.00999) {
+      const Point d{{shift(random), shift(random), shift(random)}};
+      p = p + d;
+    }
+  for (auto& p : mesh.points) {  // nodes on edges of the box are to stay
+    int on = 0;
+    for (int i = 0; i < 3; ++i) on += p[i] < 1e-9 || p[i] > 0.01 - 1e-9;
+    mesh.on_curve[&p - mesh.points.data()] = on > 1;
+  }
+  const double before = worst(mesh);
+  ASSERT_LT(before, 0.03);
+  LabelDomain solid;
+  solid.label = [](const Point& p) {
+    for (int i = 0; i < 3; ++i)
+      if (p[i] < 0 || p[i] > 0.01) return outside;
+    return wall_label;
+  };
+  const auto done = improve(mesh, projection(solid), {}, [](const std::string&) {});
+  EXPECT_GT(worst(mesh), std::sin(12 * 3.14159 / 180));
+  EXPECT_GT(done.moves, 0);
+  EXPECT_NEAR(test::volume(mesh, wall_label), 1e-6, 1e-13);  // the box is what it was
+}
+
+TEST(Improve, ProjectionFindsTheSurfaceBetweenTwoLabelsOnly) {
+  const auto domain = ball_in_box();
+  const auto project = projection(domain);
+  const Point centre{{5e-3, 5e-3, 5e-3}}, normal{{1, 0, 0}};
+  Point p = centre + 3.9e-3 * normal;
+  ASSERT_TRUE(project(p, normal, lumen_label, wall_label, 0.5e-3));
+  EXPECT_NEAR(norm(p - centre), 4e-3, 1e-6);
+  p = centre + 3e-3 * normal;
+  EXPECT_FALSE(project(p, normal, lumen_label, wall_label, 0.5e-3));  // out of reach
+  p = centre + 4.1e-3 * normal;
+  EXPECT_FALSE(project(p, normal, wall_label, outside, 0.5e-3));  // another surface
+}
+
+TEST(Layers, NoEdgeCrossesTheWallAfterwards) {
+  auto mesh = test::block_vessel({.across = 7, .along = 10, .flap_at = 3, .from = 3, .to = 8, .hole = false});
+  const double lumen = test::volume(mesh, lumen_label), wall = test::volume(mesh, wall_label);
+  const auto sides = [&] {
+    std::vector<std::array<Index, 3>> triangles;
+    for (const auto& t : surface_triangles(mesh)) {
+      const auto z = [&](int i) { return mesh.points[t.nodes[i]][2]; };
+      const bool end = std::max({z(0), z(1), z(2)}) < 1e-9 || std::min({z(0), z(1), z(2)}) > 0.00999;
+      if (t.neighbour_label == wall_label || !end) triangles.push_back(t.nodes);
+    }
+    return triangles;
+  };
+  const auto before = wall_layers(mesh, sides());
+  ASSERT_GT(before.bridged_nodes, before.surface_nodes / 2);
+  EXPECT_GT(double_layers(mesh, before.bridges), 0);
+  EXPECT_EQ(wall_layers(mesh, sides()).bridged_nodes, 0);
+  EXPECT_NEAR(test::volume(mesh, lumen_label), lumen, 1e-15);
+  EXPECT_NEAR(test::volume(mesh, wall_label), wall, 1e-15);
+  EXPECT_GT(worst(mesh), 0);
+  // The optimiser keeps it so.
+  const LabelDomain none{.label = [](const Point&) { return outside; },
+                         .box = {},
+                         .curves = {},
+                         .surface_size = {},
+                         .volume_size = {},
+                         .surface_distance = {}};
+  improve(mesh, projection(none), {.wanted_dihedral = 40, .keep_layers = true}, [](const std::string&) {});
+  EXPECT_EQ(wall_layers(mesh, sides()).bridged_nodes, 0);
+}
+
+}  // namespace
+}  // namespace tunica::stages::meshing
