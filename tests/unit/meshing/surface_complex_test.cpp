@@ -69,6 +69,35 @@ TEST(PatientComplex, WithoutAWall) {
   EXPECT_EQ(volume(complex, Label::wall), 0);
 }
 
+TEST(PatientComplex, WithAGrownWall) {
+  // True and false lumen as two surfaces: a tube, and a closed lumen beside it.
+  auto lumen = tube(4e-3, 24e-3, 40, 26);
+  for (auto& p : lumen.points) p = p - Vec3<double>{{5e-3, 0, 12e-3}};
+  auto closed = contour({{5e-3, 5e-3, 12e-3}}, 0.7e-3, [](const Point& x) {
+    return std::hypot(x[0], x[1], std::max(std::abs(x[2]) - 6e-3, 0.0)) - 4e-3;
+  });
+  for (auto& p : closed.points) p[0] += 5e-3;
+  append(lumen, closed);
+  GrowthSettings growth;
+  growth.thinnest = growth.thickest = 1.5e-3;
+  growth.spacing = 0.8e-3;
+  ComplexOptions options;
+  options.lumen_parts = 2;
+  const auto prepared = patient_complex(with_grown_wall(lumen, {}, growth, options), options);
+  EXPECT_NO_THROW(verify(prepared.complex));
+  const double ball = 4 * M_PI * 64e-9 / 3, tubes = M_PI * 16e-6 * (24e-3 + 12e-3);
+  EXPECT_NEAR(volume(prepared.complex, Label::lumen) / (ball + tubes), 1, 1e-2);
+  // Between the lumens lies a flap of 2 mm, elsewhere the wall of 1.5 mm.
+  double flap = 1, wall = 1;
+  for (std::size_t p = 0; p < prepared.lumen.points.size(); ++p)
+    if (const auto& x = prepared.lumen.points[p]; std::abs(x[2]) < 5e-3) {
+      auto& least = prepared.thickness.flap[p] ? flap : wall;
+      least = std::min(least, prepared.thickness.value[p]);
+    }
+  EXPECT_NEAR(flap, 2e-3, 0.05e-3);
+  EXPECT_NEAR(wall, 1.5e-3, 0.15e-3);  // samples every 0.8 mm
+}
+
 TEST(PatientComplex, WrittenWithPatches) {
   const Folder folder;
   const auto complex = patient_complex(two_tubes(), {}).complex;

@@ -13,9 +13,11 @@ namespace tunica::stages::meshing {
 
 namespace {
 
-TriangleSurface mended(const TriangleSurface& surface, const std::string& name, const ComplexOptions& options) {
+TriangleSurface mended(const TriangleSurface& surface, const std::string& name, int parts,
+                       const ComplexOptions& options) {
   MendOptions mend;
   mend.name = name;
+  mend.parts = parts;
   mend.spots = options.spots;
   auto result = mend_surface(surface, mend);
   for (const auto& line : result.report) options.log(name + ": " + line);
@@ -133,10 +135,10 @@ SurfaceComplex close_at_openings(const TriangleSurface& lumen, const TriangleSur
 }
 
 PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexOptions& options) {
-  auto lumen = mended(surfaces.lumen, "lumen surface", options);
+  auto lumen = mended(surfaces.lumen, "lumen surface", options.lumen_parts, options);
   std::optional<TriangleSurface> outer;
   if (surfaces.outer) {
-    outer = mended(*surfaces.outer, "outer surface", options);
+    outer = mended(*surfaces.outer, "outer surface", 1, options);
     check_nesting(lumen, *outer, options.clearance, options.spots);
   }
   const auto openings = find_openings(lumen, outer ? &*outer : nullptr, surfaces.names);
@@ -163,6 +165,18 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
   verify(complex);
   log_complex(complex, options.log);
   return {std::move(complex), size_field(sheets, options.sizes), std::move(lumen), std::move(thickness), openings};
+}
+
+PatientSurfaces with_grown_wall(const TriangleSurface& lumen, const std::vector<NamedPlace>& names,
+                                const GrowthSettings& growth, const ComplexOptions& options) {
+  PatientSurfaces surfaces{mended(lumen, "lumen surface", options.lumen_parts, options), {}, names};
+  const auto openings = find_openings(surfaces.lumen, nullptr, names);
+  flatten_rims(surfaces.lumen, openings, &Opening::lumen);
+  const auto thickness = thickness_by_radius(surfaces.lumen, openings, growth);
+  const auto [least, most] = std::minmax_element(thickness.begin(), thickness.end());
+  options.log(fmt::format("wall to be grown: {:.2f} to {:.2f} mm thick", 1e3 * *least, 1e3 * *most));
+  surfaces.outer = grow_wall(surfaces.lumen, thickness, openings, growth);
+  return surfaces;
 }
 
 }  // namespace tunica::stages::meshing

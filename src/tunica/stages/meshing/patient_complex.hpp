@@ -10,6 +10,7 @@
 #include "tunica/stages/meshing/openings.hpp"
 #include "tunica/stages/meshing/size_field.hpp"
 #include "tunica/stages/meshing/surface_complex.hpp"
+#include "tunica/stages/meshing/wall_growth.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -23,8 +24,9 @@ struct PatientSurfaces {
 struct ComplexOptions {
   SizeSettings sizes;
   Accuracy accuracy;
-  double clearance = 0.1e-3;            ///< smallest allowed distance between lumen and outer surface [m]
-  double thickness_reach = 6e-3;        ///< walls thicker than this [m] do not limit the edge length
+  int lumen_parts = 1;            ///< connected parts of the lumen surface: 2 for true and false lumen without a tear
+  double clearance = 0.1e-3;      ///< smallest allowed distance between lumen and outer surface [m]
+  double thickness_reach = 6e-3;  ///< walls thicker than this [m] do not limit the edge length
   Log log = [](const std::string&) {};  ///< gets what was mended, done and measured, one line each
   std::filesystem::path spots;          ///< .vtp file for places of problems; empty: none is written
 };
@@ -41,6 +43,11 @@ struct PreparedSurfaces {
 /// interface, wall_outer, and for each opening lumen_<name> and wall_<name>. InputError for surfaces that cannot be
 /// mended or do not fit together, SolverError when the remeshed ones are too far from the originals or cross.
 PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexOptions& options);
+
+/// Adds the outer surface to a lumen surface alone, open at the vessel ends: a wall grown outward, thicker around wider
+/// vessels. Errors as of `mend_surface`, `find_openings` and `grow_wall`.
+PatientSurfaces with_grown_wall(const TriangleSurface& lumen, const std::vector<NamedPlace>& names,
+                                const GrowthSettings& growth, const ComplexOptions& options);
 
 /// Closes remeshed surfaces at their openings: the loop of a surface nearest to an opening is its rim. `outer` null: no
 /// wall.

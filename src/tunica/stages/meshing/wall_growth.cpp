@@ -137,30 +137,20 @@ void for_each_place(const Grid& grid, Visit visit) {
       for (std::int64_t i = 0; i < grid.size[0]; ++i) visit(grid.index(i, j, k), grid.place(i, j, k));
 }
 
-/// Distance less thickness, exact within two grid steps of `level`, of the right order elsewhere.
+/// Distance less thickness and `level`, exact within two grid steps of zero. Farther away only its sign matters, and
+/// the value, which changes no faster than the place, says how many samples can be passed over.
 Grid sample(const WallFunction& wall, double level, double spacing) {
-  const auto& body = wall.tree().surface();
-  const double exact = level + 2 * spacing, band = wall.reach() + exact;
-  auto grid = grid_around(body, band + 2 * spacing, spacing);
-  grid.values.assign(grid.size[0] * grid.size[1] * grid.size[2], 0);
-  std::vector<bool> due(grid.values.size(), false);
-  for (const auto& t : body.triangles) {
-    std::int64_t low[3], high[3];
-    for (int d = 0; d < 3; ++d) {
-      const auto [a, b] = std::minmax({body.points[t[0]][d], body.points[t[1]][d], body.points[t[2]][d]});
-      low[d] = std::max<std::int64_t>(0, std::llround((a - band - grid.origin[d]) / spacing));
-      high[d] = std::min<std::int64_t>(grid.size[d] - 1, std::llround((b + band - grid.origin[d]) / spacing));
-    }
-    for (auto k = low[2]; k <= high[2]; ++k)
-      for (auto j = low[1]; j <= high[1]; ++j)
-        for (auto i = low[0]; i <= high[0]; ++i) due[grid.index(i, j, k)] = true;
-  }
-  // The band has no gaps, so along a row the sign changes only inside it.
-  for_each_place(grid, [&, side = 1.0](std::int64_t at, const Point& x) mutable {
-    const double value = due[at] ? wall(x, exact) : side * band;
-    grid.values[at] = static_cast<float>(value - level);
-    side = value < 0 ? -1 : 1;
-  });
+  const double exact = 2 * spacing;
+  auto grid = grid_around(wall.tree().surface(), wall.reach() + level + 2 * exact, spacing);
+  grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
+  for (std::int64_t k = 0; k < grid.size[2]; ++k)
+    for (std::int64_t j = 0; j < grid.size[1]; ++j)
+      for (std::int64_t i = 0; i < grid.size[0];) {
+        const double value = wall(grid.place(i, j, k), level + exact) - level;
+        const auto same = std::max<std::int64_t>(0, static_cast<std::int64_t>((std::abs(value) - exact) / spacing));
+        const auto end = std::min(grid.size[0], i + 1 + same);
+        for (; i < end; ++i) grid.values[grid.index(i, j, k)] = static_cast<float>(value);
+      }
   return grid;
 }
 
