@@ -22,8 +22,8 @@ Schema<Direction> direction_schema() {
       .alternative(Schema<Axis<0>>("e1", "Circumferential."))
       .alternative(Schema<Axis<1>>("e2", "Longitudinal."))
       .alternative(Schema<Axis<2>>("e3", "Radial."))
-      .number("angle", config::emplace<double>, config::range(-3.1415926535898, 3.1415926535898),
-              "In the plane of e1 and e2, from e1 towards e2")
+      .quantity("angle", config::emplace<double>, config::dimension::angle,
+                config::range(-3.1415926535898, 3.1415926535898), "In the plane of e1 and e2, from e1 towards e2")
       .quantities("vector", config::emplace<Vec3<double>>, dimension::none, config::anything(),
                   "Components along e1, e2, e3, of any length but 0")
       .check([](const Direction& d, Problems& problems) {

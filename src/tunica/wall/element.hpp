@@ -40,9 +40,9 @@
 namespace tunica::wall {
 
 /// Default of the stabilisation constant c. On the inflated incompressible thick cylinder (inner radius + 15 %), two to
-/// four isotropic elements through the wall, radius and hoop stress of neo-Hooke hardly depend on c from 0.03 to 1, while
-/// the pressure scatters by 8 % of the load at 0.03. With dispersed fibres (a tube at 100 mmHg) and in the manufactured
-/// solutions the errors at 0.1 are half of those at 0.3.
+/// four isotropic elements through the wall, radius and hoop stress of neo-Hooke hardly depend on c from 0.03 to 1,
+/// while the pressure scatters by 8 % of the load at 0.03. With dispersed fibres (a tube at 100 mmHg) and in the
+/// manufactured solutions the errors at 0.1 are half of those at 0.3.
 inline constexpr double default_stabilisation = 0.1;
 
 /// What the element needs besides the law. In a batch, density and K may differ between the lanes (`Scalar`).

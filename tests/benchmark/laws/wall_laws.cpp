@@ -184,7 +184,7 @@ void assembly_of_the_wall(const std::vector<Candidate>& list) {
     work.push_back([&, k] {
       for (const auto& g : groups[k])
         coupling::element_loops(isa).wall.assemble(g.view(), fields, models[k].element_settings(), {1e4, 1e-4, 1e4},
-                                          {residual.data(), block_matrix.blocks.data()->a});
+                                                   {residual.data(), block_matrix.blocks.data()->a});
     });
   auto times = least_times(work, 25);
   for (double& t : times) t /= static_cast<double>(elements);

@@ -112,7 +112,8 @@ struct Loops : testing::TestWithParam<wall::Element> {
       for (const auto& group : model.groups(mesh, r, pattern, width)) {
         spare += width - group.batches.lanes_used(group.batches.batches() - 1);
         split += group.batches.split ? group.batches.elements : 0;
-        element_loops(isa).wall.assemble(group.view(), fields.view(), model.element_settings(), wall_coefficients, target);
+        element_loops(isa).wall.assemble(group.view(), fields.view(), model.element_settings(), wall_coefficients,
+                                         target);
       }
     }
   }

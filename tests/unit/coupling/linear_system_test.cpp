@@ -42,9 +42,9 @@ struct FsiSystem {
       }
       for (const auto& group : wall.groups(mesh, r, pattern, width))
         element_loops(isa).wall.assemble(group.view(), fields.view(), wall.element_settings(),
-                                {s.acceleration_per_unknown(), s.displacement_per_unknown(),
-                                 s.velocity_per_unknown() / s.displacement_per_unknown()},
-                                target);
+                                         {s.acceleration_per_unknown(), s.displacement_per_unknown(),
+                                          s.velocity_per_unknown() / s.displacement_per_unknown()},
+                                         target);
     }
     boundaries.add_loads(0.0, 1.0, fields.view(), {s.velocity_per_unknown(), s.displacement_per_unknown()}, residual,
                          tangent);

@@ -60,9 +60,11 @@ TEST(Centreline, KnowsWhatLiesBeyondItsEnds) {
 }
 
 TEST(Centreline, BendsTowardsTheGivenDirection) {
-  Centreline line({{{0, 0, 0}}, {{0, 0, 1}}, {{1, 0, 0}}, {{0, 1, 0}}});
-  line.append(pi / 2, pi / 2, pi / 2);  // a quarter of the unit circle towards e2
-  EXPECT_NEAR(norm(line.frame(pi / 2).origin - Point{{0, 1, 1}}), 0, 1e-12);
+  for (const double sign : {1.0, -1.0}) {
+    Centreline line({{{0, 0, 0}}, {{0, 0, 1}}, {{1, 0, 0}}, {{0, 1, 0}}});
+    line.append(pi / 2, sign * pi / 2, pi / 2);  // a quarter of the unit circle towards e2, or away from it
+    EXPECT_NEAR(norm(line.frame(pi / 2).origin - Point{{0, sign, 1}}), 0, 1e-12);
+  }
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(ParametricDissection, ImpossibleOnesAreRefusedWithTheReason) {
       {"left_subclavian: {position: 160 mm}", "dissected part"},
       {"celiac: {position: 350 mm}", "dissected part"},
       {"celiac: {position: 449 mm}", "beyond an end"},
-      {"brachiocephalic: {length: 10 mm, inclination: -60 deg, angle: 0}", "too near the aorta"},
+      {"brachiocephalic: {length: 10 mm, inclination: -60 deg, angle: 0 deg}", "too near the aorta"},
       {"iliacs: {radius: 9 mm}", "iliacs.radius"},
       {"iliacs: {angle: 15 deg, length: 20 mm}", "apart"},
   };
@@ -110,8 +110,16 @@ TEST(DissectionModel, FlapHasItsThicknessAndSharesTheCrossSection) {
     }
   EXPECT_NEAR(flap, shape.flap.thickness, 5e-6);
   EXPECT_NEAR(last - first, flap, 5e-6);
+  // Off the middle the flap is inclined to that line, by its bow and by its turning.
+  const double off = 8e-3, bent = 2 * shape.flap.bow * off / (R * R),
+               turned = 2 * pi * shape.flap.turns / shape.flap.length * off;
+  const Point aside = cross(f.tangent, n);
+  double inclined = 0;
+  for (double x = -6e-3; x < 8e-3; x += step)
+    if (model.label(f.origin + off * aside + x * n) == wall_label) inclined += step;
+  EXPECT_NEAR(inclined, shape.flap.thickness * std::sqrt(1 + bent * bent + turned * turned), 5e-6);
   // True lumen and half of the flap have the wanted share of the cross-section.
-  const Point m = cross(f.tangent, n);
+  const Point& m = aside;
   double of_true = 0, of_all = 0;
   const double h = 0.1e-3;
   for (double x = -R; x < R; x += h)

@@ -88,7 +88,9 @@ TEST(Layers, NoEdgeCrossesTheWallAfterwards) {
   };
   const auto before = wall_layers(mesh, sides());
   ASSERT_GT(before.bridged_nodes, before.surface_nodes / 2);
-  EXPECT_GT(double_layers(mesh, before.bridges), 0);
+  const Index added = double_layers(mesh, before.bridges);
+  EXPECT_GT(added, 0);
+  EXPECT_LT(added, std::ssize(before.bridges) / 2);  // most nodes are taken out again
   EXPECT_EQ(wall_layers(mesh, sides()).bridged_nodes, 0);
   EXPECT_NEAR(test::volume(mesh, lumen_label), lumen, 1e-15);
   EXPECT_NEAR(test::volume(mesh, wall_label), wall, 1e-15);

@@ -128,5 +128,46 @@ TEST(Reconnect, TakesAFlatElementOffTheSurface) {
   EXPECT_EQ(surface_triangles(after).size(), 6U);
 }
 
+/// A rhombus (0, 2, 1, 3) cut along its long diagonal (0, 1), with node 4 above and, for two labels, node 5 below it.
+/// `bend`: height of the nodes beside the diagonal.
+Tetrahedra rhombus(bool two_labels, double bend) {
+  Tetrahedra mesh;
+  mesh.points = {{{-1, 0, 0}}, {{1, 0, 0}}, {{0, 0.35, bend}}, {{0, -0.35, bend}}, {{0, 0, 0.6}}, {{0, 0, -0.6}}};
+  mesh.elements = {{0, 1, 2, 4}, {1, 0, 3, 4}};
+  mesh.labels = {1, 1};
+  if (two_labels) {
+    mesh.elements.insert(mesh.elements.end(), {{0, 2, 1, 5}, {1, 3, 0, 5}});
+    mesh.labels.insert(mesh.labels.end(), {2, 2});
+  } else {
+    mesh.points.pop_back();
+  }
+  mesh.on_curve.assign(mesh.points.size(), false);
+  return mesh;
+}
+
+TEST(Reconnect, TurnsAnEdgeOfAPlaneSurface) {
+  for (const bool two_labels : {false, true}) {
+    LocalMesh local(rhombus(two_labels, 0));
+    ASSERT_GT(local.sine(0), 0);
+    EXPECT_TRUE(reconnect(local, 0, {}));
+    EXPECT_FALSE(local.is_edge(0, 1));
+    EXPECT_TRUE(local.is_edge(2, 3));
+    const auto after = local.extract();
+    EXPECT_EQ(after.elements.size(), two_labels ? 4U : 2U);
+    EXPECT_NEAR(test::volume(after, 1), test::volume(rhombus(two_labels, 0), 1), 1e-12);
+    EXPECT_NEAR(test::volume(after, 2), test::volume(rhombus(two_labels, 0), 2), 1e-12);
+  }
+}
+
+TEST(Reconnect, KeepsAnEdgeWhereTheSurfaceBends) {
+  for (const bool two_labels : {false, true})
+    for (const double bend : {0.15, -0.15}) {
+      LocalMesh local(rhombus(two_labels, bend));
+      ASSERT_GT(local.sine(0), 0);
+      reconnect(local, 0, {});
+      EXPECT_TRUE(local.is_edge(0, 1));
+    }
+}
+
 }  // namespace
 }  // namespace tunica::stages::meshing

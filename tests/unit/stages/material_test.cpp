@@ -186,7 +186,8 @@ TEST_F(Material, IncompressibleOverridesTheBulkModulus) {
 
 TEST_F(Material, FailureNamesTestAndPoint) {
   const std::string text =
-      "material: {hgo: {shear_modulus: 20 kPa, poisson_ratio: 0.5, families: [{k1: 30 kPa, k2: 100, mean_angle: 0 deg}]}}\n"
+      "material: {hgo: {shear_modulus: 20 kPa, poisson_ratio: 0.5, families: [{k1: 30 kPa, k2: 100, mean_angle: 0 "
+      "deg}]}}\n"
       "tests: {far: {uniaxial: {to: 9, steps: 2}}}\n";
   const auto message = message_of<SolverError>([&] { run(text); });
   const bool told = message.find("test far, point 2: no equilibrium at a stretch of 5") != std::string::npos;

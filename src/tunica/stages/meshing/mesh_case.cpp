@@ -25,9 +25,9 @@ using config::Schema;
 Schema<Size> size_schema() {
   return Schema<Size>("size", "How fine the mesh is; numbers of tetrahedra are those of the usual dissection.")
       .one_of()
-      .alternative(Schema<Coarse>("coarse", "About 60 000 tetrahedra."))
-      .alternative(Schema<Medium>("medium", "About 300 000."))
-      .alternative(Schema<Full>("full", "About 1.3 million."))
+      .alternative(Schema<Coarse>("coarse", "About 130 000 tetrahedra: the walls are too thin for fewer."))
+      .alternative(Schema<Medium>("medium", "About 280 000."))
+      .alternative(Schema<Full>("full", "About 1.2 million."))
       .quantity("edge", config::emplace<double>, config::dimension::length, config::range(0.2 * mm, 10 * mm),
                 "Edge length on the surfaces of lumen and wall");
 }

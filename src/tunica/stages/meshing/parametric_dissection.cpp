@@ -32,16 +32,16 @@ Schema<AortaShape> aorta_schema() {
       .quantity("arch_bend_radius", &A::arch_bend_radius, dimension::length, config::range(20 * mm, 100 * mm),
                 "Radius of the centreline in the arch")
       .by_default()
-      .quantity("arch_angle", &A::arch_angle, dimension::none, config::range(90 * degree, 190 * degree),
+      .quantity("arch_angle", &A::arch_angle, dimension::angle, config::range(90 * degree, 190 * degree),
                 "Angle by which the arch turns")
       .by_default("175 deg")
-      .quantity("arch_direction", &A::arch_direction, dimension::none, any_angle,
+      .quantity("arch_direction", &A::arch_direction, dimension::angle, any_angle,
                 "Direction of the arch seen from above: 0 to the left of the patient, 90 deg to the back")
       .by_default("65 deg")
       .quantity("descending_length", &A::descending_length, dimension::length, config::range(100 * mm, 600 * mm),
                 "From the arch to the end")
       .by_default()
-      .quantity("descending_bend", &A::descending_bend, dimension::none, config::range(-40 * degree, 40 * degree),
+      .quantity("descending_bend", &A::descending_bend, dimension::angle, config::range(-40 * degree, 40 * degree),
                 "Angle by which that part bends on, > 0 forward")
       .by_default("15 deg")
       .quantity("ascending_radius", &A::ascending_radius, dimension::length, config::range(8 * mm, 30 * mm),
@@ -99,7 +99,7 @@ Schema<FlapShape> flap_schema() {
       .plausible("1 mm", "1.6 mm")
       .number("turns", &F::turns, config::range(-2, 2), "Of the spiral over the length")
       .by_default()
-      .quantity("true_lumen_direction", &F::true_lumen_direction, dimension::none, any_angle,
+      .quantity("true_lumen_direction", &F::true_lumen_direction, dimension::angle, any_angle,
                 "Side of the true lumen at the start, from the outside of the arch")
       .by_default("180 deg")
       .number("true_lumen_share", &F::true_lumen_share, config::range(0.15, 0.85), "Of the cross-section")
@@ -125,12 +125,12 @@ Schema<BranchShape> branch_schema(const std::string& name, const BranchShape& us
       .quantity("position", &B::position, dimension::length, config::above(0),
                 "Of its origin, along the centreline from the inlet")
       .by_default(in_si(usual.position, dimension::length))
-      .quantity("angle", &B::angle, dimension::none, any_angle,
+      .quantity("angle", &B::angle, dimension::angle, any_angle,
                 "Where around the aorta: 0 on the outside of the arch, 90 deg to the right of the flow")
-      .by_default(in_si(usual.angle, dimension::none))
-      .quantity("inclination", &B::inclination, dimension::none, config::range(-60 * degree, 60 * degree),
+      .by_default(in_si(usual.angle, dimension::angle))
+      .quantity("inclination", &B::inclination, dimension::angle, config::range(-60 * degree, 60 * degree),
                 "Of its axis, from straight away towards downstream")
-      .by_default(in_si(usual.inclination, dimension::none))
+      .by_default(in_si(usual.inclination, dimension::angle))
       .quantity("radius", &B::radius, dimension::length, config::range(1.5 * mm, 12 * mm), "Of the lumen")
       .by_default(in_si(usual.radius, dimension::length))
       .quantity("length", &B::length, dimension::length, config::range(10 * mm, 100 * mm), "Outside of the aorta")
@@ -143,7 +143,7 @@ Schema<BranchShape> branch_schema(const std::string& name, const BranchShape& us
 Schema<IliacShape> iliac_schema() {
   using I = IliacShape;
   return Schema<I>("iliacs", "The two arteries that the aorta ends in.")
-      .quantity("angle", &I::angle, dimension::none, config::range(15 * degree, 50 * degree),
+      .quantity("angle", &I::angle, dimension::angle, config::range(15 * degree, 50 * degree),
                 "Of either, from the direction of the aorta")
       .by_default("25 deg")
       .quantity("radius", &I::radius, dimension::length, config::range(2 * mm, 12 * mm), "Of the lumen")
