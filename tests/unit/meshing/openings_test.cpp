@@ -49,6 +49,9 @@ TEST(Openings, RefusesWhatDoesNotMatch) {
   for (auto& p : far.points) p[2] += p[2] > 0.01 ? 10e-3 : 0;
   EXPECT_TRUE(says(why(lumen, far), "has no lumen rim inside it"));
   EXPECT_TRUE(says(why(lumen, far), "has no rim of the outer surface around it"));
+  auto twice = wall;
+  append(twice, tube(6.5e-3, 20e-3, 30, 16));
+  EXPECT_TRUE(says(why(lumen, twice), "has no lumen rim inside it"));
   auto shifted = wall;
   for (auto& p : shifted.points) p[0] += 1.5e-3;
   EXPECT_TRUE(says(why(lumen, shifted), "reaches beyond the rim"));
@@ -64,7 +67,8 @@ TEST(Openings, RefusesAClosedSurface) {
 }
 
 TEST(Openings, RimsAreFlattenedWithoutFolds) {
-  auto surface = with_rim(lumen, [](const Point& p) { return 0.5e-3 * std::cos(2 * std::atan2(p[1], p[0])); });
+  auto surface = tube(5e-3, 20e-3, 24, 64);  // rows closer to each other than the rim moves
+  for (auto& p : surface.points) p[2] += 0.5e-3 * std::cos(2 * std::atan2(p[1], p[0])) * p[2] / 20e-3;
   const auto openings = find_openings(surface, nullptr, {});
   const auto before = surface;
   flatten_rims(surface, openings, &Opening::lumen);

@@ -25,8 +25,14 @@ TEST(WallThickness, TellsFlapFromWall) {
   const TriangleTree wall(around);
   const auto thickness = wall_thickness(lumen, &wall, 5e-3);
   const auto& points = lumen.surface().points;
-  int flap = 0, outside = 0;
+  int flap = 0, outside = 0, tip = 0;
   for (std::size_t p = 0; p < points.size(); ++p) {
+    // At the rim of the flap the sides beside it are near, but nothing faces it.
+    if (std::abs(points[p][2]) > 14.9e-3 && std::hypot(points[p][0], points[p][1]) < 5e-3 &&
+        std::abs(points[p][2]) < 16e-3) {
+      EXPECT_TRUE(std::isinf(thickness.value[p]));
+      ++tip;
+    }
     if (std::abs(points[p][2]) > 12e-3) continue;
     if (std::abs(points[p][0]) < 1.1e-3 && std::abs(points[p][1]) < 6e-3) {
       EXPECT_EQ(thickness.flap[p], 1);
@@ -40,6 +46,7 @@ TEST(WallThickness, TellsFlapFromWall) {
   }
   EXPECT_GT(flap, 100);
   EXPECT_GT(outside, 100);
+  EXPECT_GT(tip, 5);
 }
 
 TEST(CurvatureRadius, OfATubeAndABall) {

@@ -57,6 +57,7 @@ TEST(PatientComplex, ClosesAndLabelsATubeWithWall) {
     }
   for (const auto t : prepared.thickness.value) EXPECT_NEAR(t, 1e-3, 0.03e-3);
   EXPECT_NEAR(prepared.sizes({{5e-3, 0, 10e-3}}), 1e-3, 0.1e-3);
+  EXPECT_NEAR(prepared.sizes({{6e-3, 0, 10e-3}}), 1.3e-3, 0.1e-3);  // what the lumen allows at 1 mm
   EXPECT_GT(lines.size(), 5u);
 }
 

@@ -136,50 +136,6 @@ SurfacePoint TriangleTree::offset(const Point& x, double within) const {
   return best;
 }
 
-SurfacePoint TriangleTree::ray(const Point& x, const Vec3<double>& direction, double from, double within) const {
-  SurfacePoint best;
-  best.distance = within;
-  if (nodes_.empty()) return best;
-  const auto enters = [&](const Node& node) {
-    double low = from, high = best.distance;
-    for (int d = 0; d < 3; ++d) {
-      const double inverse = 1 / direction[d];
-      double near = (node.low[d] - x[d]) * inverse, far = (node.high[d] - x[d]) * inverse;
-      if (std::isnan(near) || std::isnan(far)) continue;  // in the plane of a side, parallel to it
-      if (near > far) std::swap(near, far);
-      low = std::max(low, near);
-      high = std::min(high, far);
-    }
-    return low <= high;
-  };
-  std::int32_t stack[96];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const auto index = stack[--top];
-    const Node& node = nodes_[index];
-    if (!enters(node)) continue;
-    if (node.right != 0) {
-      stack[top++] = node.right;
-      stack[top++] = index + 1;
-      continue;
-    }
-    for (auto i = node.first; i < node.end; ++i) {
-      // Möller-Trumbore.
-      const auto& t = surface_.triangles[order_[i]];
-      const auto &a = surface_.points[t[0]], e1 = surface_.points[t[1]] - a, e2 = surface_.points[t[2]] - a;
-      const auto p = cross(direction, e2);
-      const double det = dot(e1, p);
-      if (det == 0) continue;
-      const auto s = x - a, q = cross(s, e1);
-      const double u = dot(s, p) / det, v = dot(direction, q) / det, distance = dot(e2, q) / det;
-      if (u < 0 || v < 0 || u + v > 1 || !(distance > from && distance < best.distance)) continue;
-      best = {order_[i], x + distance * direction, {{1 - u - v, u, v}}, distance};
-    }
-  }
-  return best;
-}
-
 bool TriangleTree::is_behind(const Point& x, const SurfacePoint& found) const {
   if (!found) return false;
   // Angle-weighted normals decide correctly at sides and corners, too (Baerentzen & Aanaes 2005).

@@ -1,4 +1,4 @@
-// A bounding-box tree over triangles: nearest points, with conditions and with weights, and rays.
+// A bounding-box tree over triangles: nearest points, with conditions and with weights.
 #pragma once
 
 #include <cstdint>
@@ -52,10 +52,6 @@ class TriangleTree {
   /// The point q with the smallest |x - q| - reach(q); `distance` is that difference, which is negative within reach.
   /// Only values below `within` are looked for.
   SurfacePoint offset(const Point& x, double within) const;
-
-  /// First crossing of the ray from `x` along the unit vector `direction`, further than `from` and nearer than
-  /// `within`.
-  SurfacePoint ray(const Point& x, const Vec3<double>& direction, double from, double within) const;
 
   /// Whether x lies inside: the surface is closed and its normals point outward. Decided at the nearest point.
   bool contains(const Point& x) const { return is_behind(x, nearest(x)); }
