@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "text.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::test {
@@ -45,21 +46,5 @@ class SharedFolder {
   MPI_Comm comm_;
   std::filesystem::path path_;
 };
-
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// The message of the Error that `action` throws, empty when it throws none.
-template <class Error, class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 }  // namespace tunica::test

@@ -277,6 +277,8 @@ void Problem::update(const State& old_state, State& next, const Instant& instant
   evaluate_fields(old_state, next, instant);
 }
 
+double Problem::residual_norm() const { return solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes))); }
+
 void Problem::update_present_modulus(const State& state) {
   if (!wall_) return;
   const Stopwatch watch(timings_.assembly);
@@ -297,7 +299,7 @@ Problem::Targets Problem::start(State& next, const Instant& instant, double& nor
     const Stopwatch watch(timings_.set_up);
     solver_.update_preconditioner(matrix_, outlets_);
   }
-  norm = solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes)));
+  norm = residual_norm();
   next.residual_reference = std::max(next.residual_reference, norm);
   const NewtonSettings& settings = input_.newton;
   const double noise = negligible_.empty() ? 0.0 : solver_.norm(negligible_);
@@ -333,7 +335,7 @@ std::optional<double> Problem::line_search(const State& old_state, State& next, 
     failure = mesh_failure();
     if (!failure.empty()) continue;
     assemble(next, instant, false);
-    const double new_norm = solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes)));
+    const double new_norm = residual_norm();
     if (std::isfinite(new_norm) && (new_norm <= input_.newton.growth * norm || new_norm <= target)) return new_norm;
     failure = fmt::format("the residual grows from {:.3e} to {:.3e} along the Newton direction", norm, new_norm);
   }
@@ -363,10 +365,12 @@ void Problem::iterate(const State& old_state, State& next, const Instant& instan
     }
     // A time step keeps the modulus of its start. A load step may be long: there it follows the iterates until they are
     // close, and is then held, so that the last iterations converge quadratically.
-    const bool follows = !instant.scheme && norm > 1e-3 * first;
-    if (k > 0 && follows) update_present_modulus(next);
-    if (k > 0) assemble(next, instant, true);
-    if (k > 0 && follows) norm = solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes)));
+    if (k > 0) {
+      const bool follows = !instant.scheme && norm > 1e-3 * first;
+      if (follows) update_present_modulus(next);
+      assemble(next, instant, true);
+      if (follows) norm = residual_norm();
+    }
     NewtonRecord& record = report.iterations.emplace_back();
     record.norm = norm;
     if (!solve_increment(record, report.failure)) return;

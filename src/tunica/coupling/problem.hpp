@@ -111,6 +111,7 @@ class Problem {
   void add_lumen(const Instant& instant, std::span<double> residual, float* blocks) const;
   void add_wall(const Instant& instant, std::span<double> residual, float* blocks) const;
   void assemble(const State& next, const Instant& instant, bool with_tangent);
+  double residual_norm() const;
   void update_present_modulus(const State& state);
   StepReport newton(const State& old_state, State& next, const Instant& instant);
   void iterate(const State& old_state, State& next, const Instant& instant, StepReport& report);

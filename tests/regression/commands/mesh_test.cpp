@@ -1,45 +1,10 @@
 // `tunica mesh`: exit codes, and the example of a dissection from its geometry to a first step of blood and wall.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
+#include "program.hpp"
 
 namespace tunica::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class MeshCommand : public testing::Test {
- protected:
-  MeshCommand() {
-    folder_ = fs::temp_directory_path() /
-              fmt::format("tunica_mesh_{}_{}", getpid(), testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  ~MeshCommand() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  int tunica(const std::string& arguments) const {
-    const int status =
-        std::system(fmt::format("cd {} && {} {} > out.txt 2>&1", folder_.string(), TUNICA_PROGRAM, arguments).c_str());
-    return WEXITSTATUS(status);
-  }
-  std::string printed() const { return slurp(folder_ / "out.txt"); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-
-  fs::path folder_;
-};
+class MeshCommand : public Program {};
 
 TEST_F(MeshCommand, TwoForWrongInputWhichIsReportedAtOnce) {
   write("mesh.yaml",

@@ -1,40 +1,17 @@
 // The program itself: exit codes, and a run that is killed from outside.
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <string>
 #include <thread>
 #include <vector>
+
+#include "program.hpp"
 
 namespace tunica::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class RunCommand : public testing::Test {
+class RunCommand : public Program {
  protected:
-  RunCommand() {
-    folder_ = fs::temp_directory_path() /
-              fmt::format("tunica_{}_{}", getpid(), testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  ~RunCommand() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
   void write_case(const std::string& more) const {
     std::ofstream(folder_ / "case.yaml")
         << "analysis: flow\n"
@@ -43,26 +20,8 @@ class RunCommand : public testing::Test {
            "output: {every: 100, checkpoint_every: 100}\n"
         << more;
   }
-  /// Starts `tunica run case.yaml <arguments>` in the folder of the test.
-  pid_t start(const std::string& arguments) const {
-    const std::string command =
-        fmt::format("cd {} && exec {} run case.yaml {} > out.txt 2>&1", folder_.string(), TUNICA_PROGRAM, arguments);
-    const pid_t child = fork();
-    if (child == 0) {
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-    return child;
-  }
-  static int exit_code(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-  int run(const std::string& arguments) const { return exit_code(start(arguments)); }
-  std::string printed() const { return slurp(folder_ / "out.txt"); }
-
-  fs::path folder_;
+  pid_t start_run(const std::string& arguments) const { return start("run case.yaml " + arguments); }
+  int run(const std::string& arguments) const { return exit_code(start_run(arguments)); }
 };
 
 const std::string sound =
@@ -107,7 +66,7 @@ TEST_F(RunCommand, AKilledRunContinues) {
   write_case(endless);
   for (const int signal : {SIGTERM, SIGKILL}) {
     const auto results = folder_ / fmt::format("by_{}", signal);
-    const pid_t child = start("--output " + results.string());
+    const pid_t child = start_run("--output " + results.string());
     const fs::path awaited = results / (signal == SIGKILL ? "checkpoints/step_00000100.checkpoint" : "steps.csv");
     for (int k = 0; k < 3000 && !fs::exists(awaited); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "text.hpp"
+
 namespace tunica::mesh::testing {
 
 class TemporaryFolder {
@@ -30,20 +32,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// The message of the exception that `run` throws, empty when it throws none of that type.
-template <class Error, class Run>
-std::string message_of(const Run& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
+using tunica::test::message_of;
+using tunica::test::slurp;
 
 }  // namespace tunica::mesh::testing

@@ -9,12 +9,15 @@
 #include <filesystem>
 #include <string>
 
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/stages/meshing/contour.hpp"
 #include "tunica/stages/meshing/plane_cut.hpp"
 #include "tunica/stages/meshing/triangle_surface.hpp"
 
 namespace tunica::stages::meshing::test {
+
+using tunica::test::message_of;
 
 /// An open tube along z with outward normals, its corners on the circle; every other row is turned by `shift` of a
 /// step.
@@ -63,21 +66,22 @@ inline TriangleSurface dissected_tube() {
   return cut_end(surface, {{{0, 0, -30e-3}}, {{0, 0, -1}}, 14e-3});
 }
 
+/// True and false lumen as two surfaces: an open tube and a closed lumen beside it, both of radius 4 mm, 2 mm apart.
+inline TriangleSurface two_lumens() {
+  auto lumen = tube(4e-3, 24e-3, 40, 26);
+  for (auto& p : lumen.points) p = p - Vec3<double>{{5e-3, 0, 12e-3}};
+  auto closed = contour({{5e-3, 5e-3, 12e-3}}, 0.7e-3, [](const Point& x) {
+    return std::hypot(x[0], x[1], std::max(std::abs(x[2]) - 6e-3, 0.0)) - 4e-3;
+  });
+  for (auto& p : closed.points) p[0] += 5e-3;
+  append(lumen, closed);
+  return lumen;
+}
+
 inline double smallest_angle_degrees(const TriangleSurface& surface) {
   double smallest = M_PI;
   for (const auto& t : surface.triangles) smallest = std::min(smallest, smallest_angle(surface, t));
   return smallest * 180 / M_PI;
-}
-
-/// The message of the Error that `action` throws, empty when it throws none.
-template <class Error, class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -71,14 +71,7 @@ TEST(PatientComplex, WithoutAWall) {
 }
 
 TEST(PatientComplex, WithAGrownWall) {
-  // True and false lumen as two surfaces: a tube, and a closed lumen beside it.
-  auto lumen = tube(4e-3, 24e-3, 40, 26);
-  for (auto& p : lumen.points) p = p - Vec3<double>{{5e-3, 0, 12e-3}};
-  auto closed = contour({{5e-3, 5e-3, 12e-3}}, 0.7e-3, [](const Point& x) {
-    return std::hypot(x[0], x[1], std::max(std::abs(x[2]) - 6e-3, 0.0)) - 4e-3;
-  });
-  for (auto& p : closed.points) p[0] += 5e-3;
-  append(lumen, closed);
+  const auto lumen = two_lumens();
   GrowthSettings growth;
   growth.thinnest = growth.thickest = 1.5e-3;
   growth.spacing = 0.8e-3;

@@ -38,13 +38,7 @@ TEST(WallGrowth, ThicknessFollowsItsField) {
 
 TEST(WallGrowth, BetweenTwoLumensTheWallIsSolid) {
   // A tube and a closed lumen beside it, 2 mm apart, with walls of 1.5 mm: one outer surface, round in the notch.
-  auto lumen = tube(4e-3, 24e-3, 40, 26);
-  for (auto& p : lumen.points) p = p - Vec3<double>{{5e-3, 0, 12e-3}};
-  auto closed = contour({{5e-3, 5e-3, 12e-3}}, 0.7e-3, [](const Point& x) {
-    return std::hypot(x[0], x[1], std::max(std::abs(x[2]) - 6e-3, 0.0)) - 4e-3;
-  });
-  for (auto& p : closed.points) p[0] += 5e-3;
-  append(lumen, closed);
+  const auto lumen = two_lumens();
   const std::vector<double> thickness(lumen.points.size(), 1.5e-3);
   const auto outer = grow_wall(lumen, thickness, find_openings(lumen, nullptr, {}), settings());
   EXPECT_EQ(genus(outer, 2), 0);

@@ -4,7 +4,6 @@
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace tunica::wall {
@@ -92,24 +91,33 @@ DirectionSet octahedral(const Density& d, int count) {
   return set;
 }
 
-DirectionSet merge(std::span<const DirectionSet> sets) {
+void DirectionIndex::add(const Direction& N) {
+  by_first_.emplace(std::abs(N[0]), directions_.size());
+  directions_.push_back(N);
+}
+
+std::optional<std::size_t> DirectionIndex::find(const Direction& N) const {
   constexpr double equal = 1e-12;
+  const double key = std::abs(N[0]);
+  const auto last = by_first_.upper_bound(key + equal);
+  const auto found = std::find_if(by_first_.lower_bound(key - equal), last, [&](const auto& entry) {
+    const Direction& other = directions_[entry.second];
+    return std::min(norm(other - N), norm(other + N)) <= equal;
+  });
+  return found == last ? std::nullopt : std::optional(found->second);
+}
+
+DirectionSet merge(std::span<const DirectionSet> sets) {
   DirectionSet merged;
-  std::multimap<double, std::size_t> by_first;  // |N1|, which does not see the sign
+  DirectionIndex index;
   for (const DirectionSet& set : sets)
     for (std::size_t n = 0; n < set.directions.size(); ++n) {
       const Direction& N = set.directions[n];
-      const double key = std::abs(N[0]);
-      const auto last = by_first.upper_bound(key + equal);
-      const auto found = std::find_if(by_first.lower_bound(key - equal), last, [&](const auto& entry) {
-        const Direction& other = merged.directions[entry.second];
-        return std::min(norm(other - N), norm(other + N)) <= equal;
-      });
-      if (found != last) {
-        merged.weights[found->second] += set.weights[n];
+      if (const auto known = index.find(N)) {
+        merged.weights[*known] += set.weights[n];
         continue;
       }
-      by_first.emplace(key, merged.directions.size());
+      index.add(N);
       merged.directions.push_back(N);
       merged.weights.push_back(set.weights[n]);
     }

@@ -1,6 +1,8 @@
 // Discrete directions and weights that represent an orientation density: the discrete fibre dispersion (DFD).
 #pragma once
 
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +50,18 @@ RuleChoice measured_rule(DirectionSet set, std::string name, const Density& d, d
 
 /// The product rule of fewest directions whose error is at most `tolerance`, or the one of least error when none is.
 RuleChoice choose_rule(const Density& d, double k2, double tolerance, bool tension_only);
+
+/// Finds directions again, up to their sign, within 1e-12.
+class DirectionIndex {
+ public:
+  void add(const Vec3<double>& N);
+  /// Which of the directions added so far it is, counted from 0.
+  std::optional<std::size_t> find(const Vec3<double>& N) const;
+
+ private:
+  std::vector<Vec3<double>> directions_;
+  std::multimap<double, std::size_t> by_first_;  ///< |N1|, which does not see the sign
+};
 
 /// One set of all directions; the weights of directions that are equal up to their sign, within 1e-12, are added.
 DirectionSet merge(std::span<const DirectionSet> sets);
