@@ -41,22 +41,6 @@ double inscribed_radius(const TriangleTree& tree, const Point& x, const Vec3<dou
   return std::min(radius, largest);
 }
 
-/// Averages over neighbours; the thickness of a wall has no steps.
-void smooth(const TriangleSurface& surface, int sweeps, std::vector<double>& values) {
-  const auto all = edges(surface);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    auto sum = values;
-    std::vector<double> count(values.size(), 1);
-    for (const auto& edge : all) {
-      sum[edge.a] += values[edge.b];
-      sum[edge.b] += values[edge.a];
-      ++count[edge.a];
-      ++count[edge.b];
-    }
-    for (std::size_t p = 0; p < values.size(); ++p) values[p] = sum[p] / count[p];
-  }
-}
-
 /// The lumen made longer at each opening and closed there, so that the wall goes on beyond the plane in which it is
 /// cut.
 struct Body {
@@ -209,7 +193,7 @@ std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std:
     const double radius = tree.interpolate(radii, tree.nearest(x));
     result.push_back(std::clamp(settings.per_radius * radius, settings.thinnest, settings.thickest));
   }
-  smooth(lumen, 5, result);
+  average_over_neighbours(lumen, 5, result);  // the thickness of a wall has no steps
   return result;
 }
 
