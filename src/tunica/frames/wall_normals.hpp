@@ -1,0 +1,37 @@
+// The direction across the wall, e3, in every element: docs/theory.md, section 6.
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tunica/frames/element_graph.hpp"
+
+namespace tunica::frames {
+
+/// Directions without sign: dyads e3 x e3 are averaged and the principal direction is taken in the end, eq. (6.3).
+struct DyadicMean {
+  int cycles = 5;  ///< of averaging over neighbours, >= 0
+};
+
+/// Vectors: a neighbour counts when its angle to the element's own vector is within the tolerance, eq. (6.1), (6.2).
+struct ConditionalMean {
+  double tolerance = 120 * std::numbers::pi / 180;  ///< rad, in (0, pi]
+  int cycles = 5;
+};
+
+using NormalMethod = std::variant<DyadicMean, ConditionalMean>;
+
+struct WallNormals {
+  std::vector<double> direction;  ///< [element of the graph, ghosts included][3], unit, from the lumen into the wall
+  std::vector<double> agreement;  ///< of owned elements: 1 where the neighbourhood has one direction, 0: none
+};
+
+/// Outward normals of `inner_faces` (the interface, on the wall's side), carried into the wall layer by layer across
+/// faces of elements, then averaged. Throws InputError on all ranks when a face does not exist, or when no path leads
+/// from them to some element. The same bits on any number of ranks. Collective.
+WallNormals wall_normals(const ElementGraph& graph, const std::vector<std::string>& inner_faces,
+                         const NormalMethod& method);
+
+}  // namespace tunica::frames
