@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tunica/assembly/scalar_system.hpp"
+#include "tunica/assembly/wall_filter.hpp"
 #include "tunica/mesh/element_shape.hpp"
 
 namespace tunica::coupling {
@@ -12,53 +12,20 @@ namespace {
 
 constexpr double negligible = 1e-3;
 
-/// w - l^2 div grad w on the nodes of the wall; other nodes have a row of their own.
-class Filter {
- public:
-  Filter(const mesh::DistributedMesh& mesh, double l)
-      : mesh_(mesh),
-        system_(mesh, entries(mesh, l),
-                "Blending of wall materials (is the smoothing length far larger than the wall?)") {}
-
-  /// Filtered indicator of the regions of one material, [local node].
-  std::vector<double> apply(const std::vector<int>& material_of_region, int material) {
-    std::vector<double> b(static_cast<std::size_t>(mesh_.owned_nodes), 0.0);
-    for (std::size_t r = 0; r < mesh_.regions.size(); ++r) {
-      if (material_of_region[r] != material) continue;
-      for (const auto& element : mesh_.regions[r].elements) {
-        const double share = 0.25 * mesh::shape(mesh_, element).volume;
-        for (const auto node : element)
-          if (node < mesh_.owned_nodes) b[node] += share;
-      }
+/// Integral of the indicator of the regions of one material times each shape function, of owned nodes.
+std::vector<double> indicator_load(const mesh::DistributedMesh& mesh, const std::vector<int>& material_of_region,
+                                   int material) {
+  std::vector<double> load(static_cast<std::size_t>(mesh.owned_nodes), 0.0);
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    if (material_of_region[r] != material) continue;
+    for (const auto& element : mesh.regions[r].elements) {
+      const double share = 0.25 * mesh::shape(mesh, element).volume;
+      for (const auto node : element)
+        if (node < mesh.owned_nodes) load[node] += share;
     }
-    return system_.solve(b);
   }
-
- private:
-  static assembly::ScalarEntries entries(const mesh::DistributedMesh& mesh, double l) {
-    assembly::ScalarEntries result;
-    std::vector<char> in_wall(static_cast<std::size_t>(mesh.owned_nodes), 0);
-    for (const auto& region : mesh.regions) {
-      if (region.kind != mesh::RegionKind::wall) continue;
-      for (const auto& element : region.elements) {
-        const auto g = mesh::shape(mesh, element);
-        for (int a = 0; a < 4; ++a) {
-          if (element[a] >= mesh.owned_nodes) continue;
-          in_wall[element[a]] = 1;
-          for (int b = 0; b < 4; ++b)
-            result.add(mesh.global_ids[element[a]], mesh.global_ids[element[b]],
-                       g.volume * (l * l * dot(g.dN[a], g.dN[b]) + (a == b ? 0.1 : 0.05)));
-        }
-      }
-    }
-    for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
-      if (!in_wall[i]) result.add(mesh.global_ids[i], mesh.global_ids[i], 1.0);
-    return result;
-  }
-
-  const mesh::DistributedMesh& mesh_;
-  assembly::ScalarSystem system_;
-};
+  return load;
+}
 
 /// Negligible weights dropped, the others summing to one.
 void tidy(double* weights, int materials) {
@@ -89,9 +56,10 @@ std::vector<std::vector<double>> blend_regions(const mesh::DistributedMesh& mesh
     for_each([](const auto&, double* w, int material) { w[material] = 1.0; });
     return weights;
   }
-  Filter filter(mesh, length / (2.0 * std::sqrt(3.0)));
+  assembly::WallFilter filter(mesh, length / (2.0 * std::sqrt(3.0)),
+                              "Blending of wall materials (is the smoothing length far larger than the wall?)");
   for (int m = 0; m < materials; ++m) {
-    const auto nodal = filter.apply(material_of_region, m);
+    const auto nodal = filter.apply(indicator_load(mesh, material_of_region, m));
     for_each([&](const auto& element, double* w, int) {
       for (const auto node : element) w[m] += 0.25 * nodal[node];
     });

@@ -16,7 +16,7 @@ struct FrameFaces {
 };
 
 struct FrameSettings {
-  NormalMethod normal = DyadicMean{};
+  NormalMethod normal = FilteredDyads{};
   Domain domain = Domain::lumen_and_wall;  ///< where the Laplace problem is solved
 };
 

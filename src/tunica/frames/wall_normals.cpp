@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "tunica/assembly/wall_filter.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/frames/averaging.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
@@ -42,25 +44,6 @@ std::vector<double> starting_vectors(const ElementGraph& graph, const std::vecto
     }
   }
   graph.update(values, 3);
-  return values;
-}
-
-/// Dyads of all sides on the inner faces, weighted by area and of trace 1; zero for elements that have none.
-std::vector<double> starting_dyads(const ElementGraph& graph, const std::vector<char>& inner) {
-  std::vector<double> values(6 * static_cast<std::size_t>(graph.size()), 0.0);
-  for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    double* value = values.data() + 6 * static_cast<std::size_t>(e);
-    for (int side = 0; side < 4; ++side) {
-      const auto face = graph.face(e, side);
-      if (face < 0 || !inner[face]) continue;
-      const auto area = graph.area_vector(e, side);
-      const auto d = dyad(area, 1 / norm(area));
-      for (int i = 0; i < 6; ++i) value[i] += d[i];
-    }
-    const double trace = value[0] + value[1] + value[2];
-    if (trace > 0) std::transform(value, value + 6, value, [&](double x) { return x / trace; });
-  }
-  graph.update(values, 6);
   return values;
 }
 
@@ -108,18 +91,37 @@ WallNormals normals_by(const ElementGraph& graph, const std::vector<char>& inner
   return normals;
 }
 
-WallNormals normals_by(const ElementGraph& graph, const std::vector<char>& inner, const DyadicMean& method) {
+/// Integrals of one component of the dyads of the inner faces times each shape function, of owned nodes.
+std::array<std::vector<double>, 6> dyad_loads(const mesh::DistributedMesh& mesh, const std::vector<char>& inner) {
+  std::array<std::vector<double>, 6> loads;
+  loads.fill(std::vector<double>(static_cast<std::size_t>(mesh.owned_nodes), 0.0));
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!inner[f]) continue;
+    for (const auto& t : mesh.faces[f].triangles) {
+      const auto area = 0.5 * cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+      const auto share = dyad(area, 1 / (3 * norm(area)));
+      for (const auto node : t)
+        for (int i = 0; i < 6 && node < mesh.owned_nodes; ++i) loads[i][node] += share[i];
+    }
+  }
+  return loads;
+}
+
+WallNormals normals_by(const ElementGraph& graph, const std::vector<char>& inner, const FilteredDyads& method) {
+  const auto& mesh = graph.mesh();
   WallNormals normals{carried_vectors(graph, inner, ConditionalMean{}.tolerance), {}};
-  auto dyads = starting_dyads(graph, inner);
-  carry_inwards(graph, dyads, 6, mean_dyad);
-  for (int cycle = 0; cycle < method.cycles; ++cycle) average(graph, dyads, 6, mean_dyad);
+  assembly::WallFilter filter(mesh, method.length, "Normals of the wall");
+  std::array<std::vector<double>, 6> dyads;
+  const auto loads = dyad_loads(mesh, inner);
+  for (int i = 0; i < 6; ++i) dyads[i] = filter.apply(loads[i]);
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    SymmetricTensor s;
-    std::copy_n(dyads.begin() + 6 * static_cast<std::ptrdiff_t>(e), 6, s.begin());
+    SymmetricTensor s{};
+    for (int i = 0; i < 6; ++i)
+      for (const auto node : graph.nodes(e)) s[i] += dyads[i][node];
     const auto p = principal(s);
     const double sign = dot(p.direction, vector(normals.direction, e)) < 0 ? -1 : 1;
     for (int i = 0; i < 3; ++i) normals.direction[3 * static_cast<std::size_t>(e) + i] = sign * p.direction[i];
-    normals.agreement.push_back((p.largest - p.second) / p.largest);
+    normals.agreement.push_back(std::clamp((p.largest - p.second) / p.largest, 0.0, 1.0));
   }
   graph.update(normals.direction, 3);
   return normals;
