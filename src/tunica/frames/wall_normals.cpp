@@ -121,7 +121,8 @@ WallNormals normals_by(const ElementGraph& graph, const std::vector<char>& inner
     const auto p = principal(s);
     const double sign = dot(p.direction, vector(normals.direction, e)) < 0 ? -1 : 1;
     for (int i = 0; i < 3; ++i) normals.direction[3 * static_cast<std::size_t>(e) + i] = sign * p.direction[i];
-    normals.agreement.push_back(std::clamp((p.largest - p.second) / p.largest, 0.0, 1.0));
+    // The direction is sure up to a second one of half the weight, which is what the curvature of a branch can bring.
+    normals.agreement.push_back(std::clamp(2 * (p.largest - p.second) / p.largest, 0.0, 1.0));
   }
   graph.update(normals.direction, 3);
   return normals;

@@ -194,7 +194,6 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const S
     if (!request.overwrite && std::filesystem::exists(c.output / "report.json"))
       throw InputError(c.output.string(), "holds a result already", "give --overwrite, or another `output`");
     loaded = load_meshes(c.meshes, {});
-    for (const auto& line : loaded.report) say(line);
     for (const auto& line : loaded.warnings) say("warning: " + line);
   });
   parallel::broadcast(comm, text);

@@ -17,7 +17,7 @@ struct ReportInput {
   std::int64_t undefined = 0, tear_elements = 0;
   int ranks = 1;
   std::vector<std::pair<std::string, double>> seconds{};  ///< of each phase
-  double peak_memory = 0;                               ///< of rank 0 [byte]
+  double peak_memory = 0;                                 ///< of rank 0 [byte]
 };
 nlohmann::json fibres_report(const ReportInput& input);
 /// The same for the terminal.
