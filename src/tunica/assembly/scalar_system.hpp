@@ -12,7 +12,7 @@
 
 namespace tunica::assembly {
 
-/// Entries of the rows that this rank owns, by global node numbers; repeated ones are added.
+/// Entries by global node numbers; repeated ones are added, those of rows of other ranks travel there.
 struct ScalarEntries {
   std::vector<PetscInt> rows, columns;
   std::vector<PetscScalar> values;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tunica/frames/averaging.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
@@ -24,19 +25,71 @@ Vec3<double> vector(const std::vector<double>& values, std::int32_t e) {
 
 Vec3<double> across(const Vec3<double>& v, const Vec3<double>& normal) { return v - dot(v, normal) * normal; }
 
-/// Conditions of the longitudinal potential, eq. (6.4).
-LaplaceConditions conditions_of(const mesh::DistributedMesh& mesh, const FrameFaces& faces, Domain domain) {
-  LaplaceConditions conditions(mesh);
-  for (const auto& name : faces.outlets) {
-    const auto& face = mesh.face(name);
-    if (!includes(domain, mesh.regions[face.region].kind)) continue;
-    for (const auto& t : face.triangles) {
-      const double area =
-          0.5 * norm(cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]));
-      for (const auto node : t)
-        if (const auto row = carrier(mesh, domain, node); row < mesh.owned_nodes) conditions.flux[row] += area / 3;
-    }
+/// Outlet faces of the domain, and which of them meet, as cap and ring of one opening do: those are one group.
+class Outlets {
+ public:
+  Outlets(const mesh::DistributedMesh& mesh, const std::vector<std::string>& names, Domain domain)
+      : mesh_(mesh), domain_(domain) {
+    for (const auto& name : names)
+      if (const auto& face = mesh.face(name); includes(domain, mesh.regions[face.region].kind)) faces_.push_back(&face);
   }
+
+  /// Numbers the nodes of each group. Collective.
+  void tie(LaplaceConditions& conditions) const {
+    const auto n = faces_.size();
+    std::vector<double> meet(n * n, 0.0);
+    for (std::size_t f = 0; f < n; ++f)
+      for_owned_nodes(f, [&](std::int32_t node) {
+        if (const auto other = conditions.group[node]; other >= 0) meet[f * n + static_cast<std::size_t>(other)] = 1;
+        conditions.group[node] = static_cast<double>(f);
+      });
+    parallel::global_sum(mesh_.comm, meet);
+    std::vector<std::size_t> first(n);  // face of lowest number in the group
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    for (std::size_t f = 0; f < n; ++f)
+      for (std::size_t g = 0; g < f; ++g)
+        if (meet[f * n + g] > 0) {
+          const auto [low, high] = std::minmax(first[f], first[g]);
+          std::replace(first.begin(), first.end(), std::size_t{high}, std::size_t{low});
+        }
+    for (std::size_t f = 0; f < n; ++f)
+      for_owned_nodes(f, [&](std::int32_t node) { conditions.group[node] = static_cast<double>(first[f]); });
+    // Unit flux on average; a number that only leads to another group has no nodes and takes nothing.
+    conditions.flux.assign(n, 0.0);
+    for (std::size_t f = 0; f < n; ++f) conditions.flux[first[f]] += area(*faces_[f]);
+    parallel::global_sum(mesh_.comm, conditions.flux);
+  }
+
+ private:
+  template <class Visit>
+  void for_owned_nodes(std::size_t f, const Visit& visit) const {
+    for (const auto& t : faces_[f]->triangles)
+      for (const auto node : t)
+        if (const auto row = carrier(mesh_, domain_, node); row < mesh_.owned_nodes) visit(row);
+  }
+
+  double area(const mesh::Face& face) const {
+    double sum = 0;
+    for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
+      const auto& [a, b, c] = face.triangles[t];
+      sum += 0.5 * norm(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]));
+    }
+    return sum;
+  }
+
+  const mesh::DistributedMesh& mesh_;
+  Domain domain_;
+  std::vector<const mesh::Face*> faces_;
+};
+
+/// Conditions of the longitudinal potential, eq. (6.4). Collective.
+LaplaceConditions conditions_of(const mesh::DistributedMesh& mesh, const FrameFaces& faces, Domain domain) {
+  const auto outlets = parallel::agree(mesh.comm, [&] {
+    for (const auto& name : faces.inlet) mesh.face(name);
+    return Outlets(mesh, faces.outlets, domain);
+  });
+  LaplaceConditions conditions(mesh);
+  outlets.tie(conditions);
   for (const auto& name : faces.inlet)
     for (const auto& t : mesh.face(name).triangles)
       for (const auto node : t) conditions.value[carrier(mesh, domain, node)] = 0;
@@ -109,7 +162,7 @@ std::vector<double> jumps(const ElementGraph& graph, const std::vector<double>& 
 
 Frames make_frames(const ElementGraph& graph, const FrameFaces& faces, const FrameSettings& settings) {
   const auto& mesh = graph.mesh();
-  const auto conditions = parallel::agree(mesh.comm, [&] { return conditions_of(mesh, faces, settings.domain); });
+  const auto conditions = conditions_of(mesh, faces, settings.domain);
   const auto normals = wall_normals(graph, faces.inner, settings.normal);
   const auto solution = solve_laplace(mesh, settings.domain, conditions, "Longitudinal direction of the wall");
   const auto gradient = longitudinal_gradient(graph, solution);

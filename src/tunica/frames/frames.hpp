@@ -12,7 +12,7 @@ namespace tunica::frames {
 struct FrameFaces {
   std::vector<std::string> inner;    ///< of the wall, towards the lumen
   std::vector<std::string> inlet;    ///< phi = 0: rings of the wall, and caps of the lumen where it takes part
-  std::vector<std::string> outlets;  ///< unit flux
+  std::vector<std::string> outlets;  ///< one phi for each opening, unit flux on average
 };
 
 struct FrameSettings {

@@ -11,10 +11,11 @@ namespace tunica::frames {
 
 enum class Domain { lumen, wall, lumen_and_wall };
 
-/// What holds on the boundary; no flux elsewhere. Arrays are [local node].
+/// What holds on the boundary; no flux elsewhere. Arrays are [local node], of which those of owned nodes count.
 struct LaplaceConditions {
   std::vector<double> value;  ///< of phi where it is prescribed, NaN elsewhere
-  std::vector<double> flux;   ///< integral of the inflow over the node's share of the surface; of owned nodes
+  std::vector<double> group;  ///< number of the group of nodes that have one unknown phi in common, -1: none
+  std::vector<double> flux;   ///< inflow into each group [m^2 times the unit of the gradient]; the same on all ranks
 
   explicit LaplaceConditions(const mesh::DistributedMesh& mesh);
 };
@@ -24,9 +25,9 @@ struct LaplaceSolution {
   int iterations = 0;
 };
 
-/// Linear elements. In the union, twins of the interface are one unknown; there and in the conditions the value at a
-/// host counts for both. Throws SolverError when nothing is prescribed or the linear solver fails; `name` begins the
-/// message. Collective.
+/// Linear elements. A prescribed value goes before a group. In the union, twins of the interface are one unknown; there
+/// and in the conditions the value at a host counts for both. Throws SolverError when nothing is prescribed or the
+/// linear solver fails; `name` begins the message. Collective.
 LaplaceSolution solve_laplace(const mesh::DistributedMesh& mesh, Domain domain, const LaplaceConditions& conditions,
                               const std::string& name);
 
