@@ -176,7 +176,7 @@ TEST_F(Picture, DrawsLinesAlongVectorsAndShowsAFocus) {
   options.width = 344;  // as wide as the cube's part of the other pictures
   const auto dark = [&](double height) {
     const auto colours = row(height);
-    return std::count_if(colours.begin(), colours.end(), [](const Colour& c) { return c[0] + c[1] + c[2] < 150; });
+    return std::count_if(colours.begin(), colours.end(), [](const Colour& c) { return c[0] + c[1] + c[2] < 300; });
   };
   render(options);
   EXPECT_EQ(dark(0.247), 0);
