@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <map>
 
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/parallel/all_to_all.hpp"
@@ -87,6 +86,23 @@ class Sides {
   std::vector<Side> sides_;
 };
 
+/// Positions of owned elements by their numbers in MeshData.
+class LocalNumbers {
+ public:
+  explicit LocalNumbers(const std::vector<std::int64_t>& ids) {
+    for (std::size_t e = 0; e < ids.size(); ++e) sorted_.emplace_back(ids[e], static_cast<std::int32_t>(e));
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+  std::int32_t operator()(std::int64_t id) const {
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{id, std::int32_t{0}});
+    assert(found != sorted_.end() && found->first == id);
+    return found->second;
+  }
+
+ private:
+  std::vector<std::pair<std::int64_t, std::int32_t>> sorted_;
+};
+
 }  // namespace
 
 ElementGraph::ElementGraph(const mesh::DistributedMesh& mesh) : mesh_(mesh) {
@@ -101,20 +117,11 @@ ElementGraph::ElementGraph(const mesh::DistributedMesh& mesh) : mesh_(mesh) {
 }
 
 void ElementGraph::connect() {
-  std::vector<std::pair<std::int64_t, std::int32_t>> number(ids_.size());
-  for (std::int32_t e = 0; e < owned(); ++e) number[e] = {ids_[e], e};
-  std::sort(number.begin(), number.end());
-  const auto local = [&](std::int64_t id) {
-    const auto found = std::lower_bound(number.begin(), number.end(), std::pair{id, std::int32_t{0}});
-    assert(found != number.end() && found->first == id);
-    return found->second;
-  };
-
-  // Neighbours by their numbers in MeshData; those of other ranks are asked for their global numbers.
+  const LocalNumbers local(ids_);
   const int rank = parallel::rank(mesh_.comm);
-  std::vector<std::vector<std::int64_t>> other(ids_.size());
+  std::vector<std::vector<std::int64_t>> other(ids_.size());  // neighbours by their numbers in MeshData
+  std::vector<std::vector<std::int64_t>> ghosts(static_cast<std::size_t>(parallel::size(mesh_.comm)));  // by owner
   face_.assign(4 * ids_.size(), -1);
-  std::vector<std::vector<std::int64_t>> wanted(static_cast<std::size_t>(parallel::size(mesh_.comm)));
   for (const auto& from : parallel::all_to_all(mesh_.comm, Sides(mesh_).messages()))
     for (const Message& m : from) {
       const auto e = local(m.id);
@@ -123,16 +130,32 @@ void ElementGraph::connect() {
         continue;
       }
       other[e].push_back(m.other);
-      if (m.other_owner != rank) wanted[m.other_owner].push_back(m.other);
+      if (m.other_owner != rank) ghosts[m.other_owner].push_back(m.other);
     }
+  const auto ghost_numbers = number_ghosts(std::move(ghosts));
+
+  begin_ = {0};
+  for (auto& ids : other) {
+    std::sort(ids.begin(), ids.end());
+    for (const auto id : ids) {
+      const auto ghost = ghost_numbers.find(id);
+      neighbours_.push_back(ghost == ghost_numbers.end() ? local(id) : ghost->second);
+    }
+    begin_.push_back(static_cast<std::int32_t>(neighbours_.size()));
+  }
+}
+
+// Elements have global numbers that are contiguous on each rank, as the halo wants them; owners tell those of ghosts.
+std::map<std::int64_t, std::int32_t> ElementGraph::number_ghosts(std::vector<std::vector<std::int64_t>> wanted) {
   for (auto& ids : wanted) {
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
-  std::int64_t first = 0;
   const std::int64_t count = owned();
-  MPI_Exscan(&count, &first, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
-  if (rank == 0) first = 0;
+  std::int64_t first = 0;
+  MPI_Scan(&count, &first, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
+  first -= count;
+  const LocalNumbers local(ids_);
   auto asked = parallel::all_to_all(mesh_.comm, wanted);
   for (auto& ids : asked)
     for (auto& id : ids) id = first + local(id);
@@ -144,23 +167,14 @@ void ElementGraph::connect() {
   std::sort(ghosts.begin(), ghosts.end());
   std::vector<std::int64_t> global(ids_.size());
   std::iota(global.begin(), global.end(), first);
-  std::map<std::int64_t, std::int32_t> ghost_number;
+  std::map<std::int64_t, std::int32_t> numbers;
   for (const auto& [global_number, id] : ghosts) {
-    ghost_number[id] = static_cast<std::int32_t>(global.size());
+    numbers[id] = static_cast<std::int32_t>(global.size());
     global.push_back(global_number);
   }
   size_ = static_cast<std::int32_t>(global.size());
   halo_ = parallel::Halo(mesh_.comm, global, owned(), first);
-
-  begin_ = {0};
-  for (auto& ids : other) {
-    std::sort(ids.begin(), ids.end());
-    for (const auto id : ids) {
-      const auto ghost = ghost_number.find(id);
-      neighbours_.push_back(ghost == ghost_number.end() ? local(id) : ghost->second);
-    }
-    begin_.push_back(static_cast<std::int32_t>(neighbours_.size()));
-  }
+  return numbers;
 }
 
 Vec3<double> ElementGraph::area_vector(std::int32_t e, int side) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,8 @@ class ElementGraph {
 
  private:
   void connect();
+  /// Makes the halo; `wanted`: numbers in MeshData of ghosts by owner. Returns the numbers of the ghosts here.
+  std::map<std::int64_t, std::int32_t> number_ghosts(std::vector<std::vector<std::int64_t>> wanted);
 
   const mesh::DistributedMesh& mesh_;
   std::int32_t size_ = 0;

@@ -88,6 +88,22 @@ TEST(Frames, DoNotDependOnTheRanks) {
     }
 }
 
+TEST(Frames, JumpIsTheLargestAngleOfAnAxisToThatOfANeighbour) {
+  const auto mesh = mesh::distribute(small_tube(), MPI_COMM_SELF);
+  const ElementGraph graph(mesh);
+  const auto f = make_frames(graph, tube_faces, {ConditionalMean{.cycles = 0}, Domain::wall});
+  double largest = 0;
+  for (std::int32_t e = 0; e < graph.owned(); ++e) {
+    double jump = 0;
+    for (const auto n : graph.neighbours(e))
+      for (const auto* axis : {&f.e1, &f.e2, &f.e3})
+        jump = std::max(jump, std::acos(std::min(1.0, std::abs(dot((*axis)[e], (*axis)[n])))));
+    EXPECT_NEAR(f.jump[e], jump, 1e-9);
+    largest = std::max(largest, jump);
+  }
+  EXPECT_GT(largest, 0.39);  // from one of 16 facets to the next
+}
+
 TEST(Frames, AreOrthonormalRightHandedAndPointOutwards) {
   const auto mesh = mesh::distribute(small_tube(), MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
