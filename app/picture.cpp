@@ -17,6 +17,7 @@ struct Arguments {
   std::array<double, 2> limits{};
   std::array<int, 2> size{1200, 800};
   std::array<double, 6> clip{};
+  std::array<double, 4> focus{};
   std::array<double, 3> view{-1.0, -1.5, 0.8}, up{0.0, 0.0, 1.0};
 };
 
@@ -29,6 +30,7 @@ void picture(const CLI::App& command, const Arguments& arguments) {
   if (command.count("--range")) options.limits = arguments.limits;
   if (command.count("--clip"))
     options.clip = stages::ClipPlane{vector(arguments.clip.data()), vector(arguments.clip.data() + 3)};
+  if (command.count("--focus")) options.focus = stages::Focus{vector(arguments.focus.data()), arguments.focus[3]};
   options.view = vector(arguments.view.data());
   options.up = vector(arguments.up.data());
   options.width = arguments.size[0];
@@ -65,6 +67,10 @@ void add_picture(CLI::App& app) {
   command->add_option("--clip", a->clip, "Cut away one side of a plane: point x y z, direction of that side x y z");
   command->add_option("--warp", o.warp, "Vector array by which points are moved");
   command->add_option("--warp-factor", o.warp_factor, "Factor on that vector");
+  command->add_option("--lines", o.lines, "Cell vector array along which short lines are drawn");
+  command->add_option("--line-length", o.line_length,
+                      "Of these, in the unit of the files; default: a hundredth of the view");
+  command->add_option("--focus", a->focus, "Show only the surroundings of a point: x y z, radius");
   command->add_option("--view", a->view, "Direction from the scene to the camera, x y z");
   command->add_option("--up", a->up, "Direction that points up in the picture, x y z");
   command->add_option("--size", a->size, "Width and height in pixels");

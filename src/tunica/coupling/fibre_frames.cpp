@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tunica/base/error.hpp"
+#include "tunica/mesh/element_shape.hpp"
 
 namespace tunica::coupling {
 
@@ -10,18 +11,13 @@ namespace {
 
 using wall::FibreFrame;
 
-Vec3<double> centroid(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element) {
-  return 0.25 *
-         ((mesh.points[element[0]] + mesh.points[element[1]]) + (mesh.points[element[2]] + mesh.points[element[3]]));
-}
-
 FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region&, std::size_t, const wall::ConstantFrame& source) {
   return source.frame();
 }
 
 FibreFrame frame_of(const mesh::DistributedMesh& mesh, const mesh::Region& region, std::size_t element,
                     const wall::CylindricalFrame& source) {
-  return source.at(centroid(mesh, region.elements[element]));
+  return source.at(mesh::centroid(mesh, region.elements[element]));
 }
 
 FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region& region, std::size_t element,

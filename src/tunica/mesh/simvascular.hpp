@@ -40,10 +40,10 @@ LoadedMesh read_simvascular(const std::filesystem::path& folder, RegionKind kind
                             const SimVascularOptions& options);
 
 /// Writes the regions of one kind as a `mesh-complete` folder that read_simvascular reads back: the volume with
-/// GlobalNodeID, GlobalElementID and the cell array `region` (1, 2, ... in the order of `data.regions`), a file for
-/// each face, and all faces in one. Files of the same names are replaced, other faces there are removed. Coordinates
-/// are divided by `metres_per_unit`. Returns the region names in the order of their numbers. Throws SolverError when a
-/// file cannot be written.
+/// GlobalNodeID, GlobalElementID, the cell array `region` (1, 2, ... in the order of `data.regions`) and `data.fields`,
+/// a file for each face, and all faces in one. Files of the same names are replaced, other faces there are removed.
+/// Coordinates are divided by `metres_per_unit`. Returns the region names in the order of their numbers. Throws
+/// SolverError when a file cannot be written.
 std::vector<std::string> write_simvascular(const std::filesystem::path& folder, const MeshData& data, RegionKind kind,
                                            double metres_per_unit);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -68,6 +69,16 @@ vtkNew<vtkIdTypeArray> id_array(const char* name, const std::vector<Index>& zero
   return array;
 }
 
+vtkNew<vtkDoubleArray> field_array(const ElementField& field, const std::vector<Index>& elements) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(field.name.c_str());
+  array->SetNumberOfComponents(field.components);
+  array->SetNumberOfTuples(std::ssize(elements));
+  for (Index i = 0; i < std::ssize(elements); ++i)
+    array->SetTuple(i, field.values.data() + elements[i] * field.components);
+  return array;
+}
+
 vtkNew<vtkPoints> points(const MeshData& data, const std::vector<Index>& nodes, double metres_per_unit) {
   vtkNew<vtkPoints> result;
   result->SetDataTypeToDouble();
@@ -103,6 +114,7 @@ void write_volume(const fs::path& path, const MeshData& data, const Part& part, 
   for (std::size_t r = 0; r < part.region_ends.size(); ++r)
     for (; e < part.region_ends[r].second; ++e) region->SetValue(e, static_cast<int>(r) + 1);
   grid->GetCellData()->AddArray(region);
+  for (const auto& field : data.fields) grid->GetCellData()->AddArray(field_array(field, part.elements));
   grid->GetPointData()->AddArray(id_array("GlobalNodeID", counted(std::ssize(part.nodes))));
   grid->GetCellData()->AddArray(id_array("GlobalElementID", counted(std::ssize(part.elements))));
   write<vtkXMLUnstructuredGridWriter>(path, grid.Get());

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tunica/bc/check.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/gmsh.hpp"
 #include "tunica/mesh/interface.hpp"
 #include "tunica/mesh/quality.hpp"
@@ -88,6 +89,15 @@ void report_quality(CheckedMesh& mesh, std::vector<Problem>& problems) {
   }
 }
 
+/// The meshes with what is to be said of their elements; what is wrong with these is added to `problems`.
+CheckedMesh read_and_measure(const MeshSettings& m, const std::vector<std::string>& fields,
+                             std::vector<Problem>& problems) {
+  LoadedMesh loaded = read_or_generate(m, fields);
+  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
+  report_quality(mesh, problems);
+  return mesh;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSettings& meshes) {
@@ -99,17 +109,46 @@ std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSetti
   return pairs;
 }
 
+CheckedMesh load_meshes(const MeshSettings& meshes, const std::vector<std::string>& fields) {
+  std::vector<Problem> problems;
+  CheckedMesh mesh = read_and_measure(meshes, fields, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return mesh;
+}
+
 CheckedMesh load_mesh(const Case& c) {
   const bool needs_frames = c.wall && c.wall->fibre_frame;
-  LoadedMesh loaded =
-      read_or_generate(c.meshes, needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{});
-  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
   std::vector<Problem> problems;
-  report_quality(mesh, problems);
+  CheckedMesh mesh = read_and_measure(
+      c.meshes, needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{}, problems);
   const auto wrong = bc::check_boundary(boundary_case(c, mesh.data));
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   if (!problems.empty()) throw InputError(std::move(problems));
   return mesh;
+}
+
+std::string meshes_section(const std::vector<std::string>& wall_regions,
+                           const std::optional<InterfaceSettings>& interface) {
+  std::string numbers;
+  for (std::size_t r = 0; r < wall_regions.size(); ++r)
+    numbers += fmt::format("{}{}: {}", r == 0 ? "" : ", ", wall_regions[r], r + 1);
+  const auto names = [](const std::vector<std::string>& faces) {
+    return faces.size() == 1 ? faces[0] : fmt::format("[{}]", mesh::list_names(faces));
+  };
+  return fmt::format(
+             "# For a case file in this folder; put the folder before the paths for one elsewhere.\n"
+             "meshes:\n"
+             "  length_unit: mm\n") +
+         (interface ? "  lumen: {simvascular: lumen}\n" : "") +
+         fmt::format(
+             "  wall:\n"
+             "    simvascular: wall\n"
+             "    region_array: region\n"
+             "    regions: {{{}}}\n",
+             numbers) +
+         (interface ? fmt::format("  interface: {{lumen: {}, wall: {}}}\n", names(interface->lumen_faces),
+                                  names(interface->wall_faces))
+                    : "");
 }
 
 std::uint64_t mesh_hash(const mesh::MeshData& data) {

@@ -23,6 +23,14 @@ struct CheckedMesh {
 /// exactly one condition. Throws InputError with all problems that were found. Not collective: for one rank.
 CheckedMesh load_mesh(const Case& c);
 
+/// The same without conditions on the faces. `fields`: element values of the wall that are kept.
+CheckedMesh load_meshes(const MeshSettings& meshes, const std::vector<std::string>& fields);
+
+/// The section `meshes` of a case in a folder where `lumen` and `wall` are meshes in SimVascular's layout, in mm.
+/// `wall_regions`: names of the values 1, 2, ... of the cell array `region`; no interface: a wall alone.
+std::string meshes_section(const std::vector<std::string>& wall_regions,
+                           const std::optional<InterfaceSettings>& interface);
+
 /// Number that changes with any coordinate, element, face or twin: two runs with the same number have the same mesh.
 std::uint64_t mesh_hash(const mesh::MeshData& data);
 

@@ -39,6 +39,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/stages/picture_data.hpp"
+#include "tunica/stages/picture_lines.hpp"
 
 namespace tunica::stages {
 namespace {
@@ -69,6 +70,10 @@ void check(const PictureOptions& options) {
   if (!(norm(cross(options.view, options.up)) > 1e-6 * norm(options.view) * norm(options.up)))
     problems.push_back({"picture view", "view direction and up direction are parallel or zero",
                         "let them differ, for example --up 0 1 0"});
+  if (options.focus && !(options.focus->radius > 0.0))
+    problems.push_back({"picture focus", fmt::format("a radius of {}", options.focus->radius), "give one above 0"});
+  if (!(options.line_length >= 0.0))
+    problems.push_back({"picture lines", fmt::format("a length of {}", options.line_length), "give one above 0"});
   if (options.clip && !(norm(options.clip->normal) > 0.0))
     problems.push_back({"picture clip", "the normal is zero", "give the direction in which to cut away"});
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -210,6 +215,15 @@ std::vector<Layer> make_layers(const std::vector<std::string>& files, const Pict
   if (!options.array.empty() && !any_coloured)
     throw InputError("picture", fmt::format("no input has an array '{}' to colour by", options.array),
                      "arrays that exist: " + array_names(layers));
+  const auto has_lines = [&](const Layer& layer) {
+    const auto* array =
+        layer.data->GetCellData()->GetArray(full_name(*layer.data->GetCellData(), options.lines).c_str());
+    return array && array->GetNumberOfComponents() == 3;
+  };
+  if (!options.lines.empty() && std::none_of(layers.begin(), layers.end(), has_lines))
+    throw InputError("picture",
+                     fmt::format("no input has a cell array '{}' of vectors to draw lines along", options.lines),
+                     "arrays that exist: " + array_names(layers));
   std::erase_if(layers, [](const Layer& layer) { return layer.surface->GetNumberOfCells() == 0; });
   const auto in_sight = [&](const Layer& layer) { return layer.coloured || options.array.empty(); };
   if (std::none_of(layers.begin(), layers.end(), in_sight))
@@ -276,39 +290,63 @@ void add_actors(vtkRenderer& scene, const std::vector<Layer>& layers, const Pict
   }
 }
 
-/// Looks along -view in parallel projection, with everything in sight as large as it goes.
-void set_camera(vtkRenderer& scene, const std::vector<Layer>& layers, const PictureOptions& options) {
-  const auto away = (1.0 / norm(options.view)) * options.view;
-  auto right = cross(options.up, away);
-  right = (1.0 / norm(right)) * right;
-  const auto up = cross(away, right);
-  const Vec3<double> axes[3] = {right, up, away};
-  Vec3<double> low, high;
+/// A box along the axes of the picture: right, up, towards the camera.
+struct Sight {
+  Vec3<double> axes[3], low, high;
+  Vec3<double> size() const { return high - low; }
+  Vec3<double> centre() const {
+    Vec3<double> c = {{0.0, 0.0, 0.0}};
+    for (int a = 0; a < 3; ++a) c = c + (0.5 * (low[a] + high[a])) * axes[a];
+    return c;
+  }
+};
+
+/// Everything that is drawn, or what the options focus on.
+Sight find_sight(const std::vector<Layer>& layers, const PictureOptions& options) {
+  Sight sight;
+  sight.axes[2] = (1.0 / norm(options.view)) * options.view;
+  const auto right = cross(options.up, sight.axes[2]);
+  sight.axes[0] = (1.0 / norm(right)) * right;
+  sight.axes[1] = cross(sight.axes[2], sight.axes[0]);
   for (int a = 0; a < 3; ++a) {
-    low[a] = std::numeric_limits<double>::max();
-    high[a] = std::numeric_limits<double>::lowest();
+    sight.low[a] = std::numeric_limits<double>::max();
+    sight.high[a] = std::numeric_limits<double>::lowest();
   }
   for (const auto& layer : layers)
     for (vtkIdType i = 0; i < layer.surface->GetNumberOfPoints(); ++i) {
       Vec3<double> point;
       layer.surface->GetPoint(i, point.x);
       for (int a = 0; a < 3; ++a) {
-        low[a] = min(low[a], dot(axes[a], point));
-        high[a] = max(high[a], dot(axes[a], point));
+        sight.low[a] = min(sight.low[a], dot(sight.axes[a], point));
+        sight.high[a] = max(sight.high[a], dot(sight.axes[a], point));
       }
     }
-  const auto size = high - low;
-  Vec3<double> centre = {{0.0, 0.0, 0.0}};
-  for (int a = 0; a < 3; ++a) centre = centre + (0.5 * (low[a] + high[a])) * axes[a];
-  const auto eye = centre + (2.0 * norm(size)) * away;
+  for (int a = 0; a < 3 && options.focus; ++a) {
+    sight.low[a] = dot(sight.axes[a], options.focus->centre) - options.focus->radius;
+    sight.high[a] = sight.low[a] + 2.0 * options.focus->radius;
+  }
+  return sight;
+}
+
+/// Looks along -view in parallel projection, with what is in sight as large as it goes.
+void set_camera(vtkRenderer& scene, const Sight& sight, const PictureOptions& options) {
+  const auto size = sight.size(), centre = sight.centre(), eye = centre + (2.0 * norm(size)) * sight.axes[2];
   auto* camera = scene.GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(centre.x);
   camera->SetPosition(eye[0], eye[1], eye[2]);
-  camera->SetViewUp(up[0], up[1], up[2]);
+  camera->SetViewUp(sight.axes[1].x);
   const double aspect = bar_begin * options.width / (title_begin * options.height);
   camera->SetParallelScale(0.5 * 1.08 * max(size[1], size[0] / aspect));
   scene.ResetCameraClippingRange();
+}
+
+void add_all_lines(vtkRenderer& scene, const std::vector<Layer>& layers, const Sight& sight,
+                   const PictureOptions& options) {
+  const double length = options.line_length > 0 ? options.line_length : norm(sight.size()) / 100;
+  for (const auto& layer : layers)
+    if (const auto array = full_name(*layer.surface->GetCellData(), options.lines); !array.empty())
+      add_lines(scene, *layer.surface, {array, length, sight.axes[2]});
 }
 
 void style_text(vtkTextProperty* text, int size) {
@@ -393,6 +431,8 @@ PictureSummary render(const PictureOptions& options) {
   }
   add_title(*frame, options, summary.time);
   add_actors(*scene, layers, options, table);
+  const auto sight = find_sight(layers, options);
+  if (!options.lines.empty()) add_all_lines(*scene, layers, sight, options);
 
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
@@ -401,7 +441,7 @@ PictureSummary render(const PictureOptions& options) {
   window->SetSize(options.width, options.height);
   window->AddRenderer(frame);
   window->AddRenderer(scene);
-  set_camera(*scene, layers, options);
+  set_camera(*scene, sight, options);
   write_picture(*window, options.output);
   return summary;
 }

@@ -15,6 +15,12 @@ struct ClipPlane {
   Vec3<double> origin, normal;  ///< origin in the length unit of the files
 };
 
+/// What the picture shows instead of everything.
+struct Focus {
+  Vec3<double> centre;
+  double radius;  ///< > 0; both in the length unit of the files
+};
+
 struct PictureOptions {
   std::vector<std::string> inputs;  ///< .vtu, .pvtu, .vtp, .pvtp, or .pvd time series; all are drawn together
   std::string output;               ///< .png
@@ -30,6 +36,10 @@ struct PictureOptions {
   std::optional<ClipPlane> clip;  ///< default: nothing is cut
   std::string warp;               ///< point vector array by which points are moved; empty: none
   double warp_factor = 1.0;
+
+  std::string lines;             ///< cell vector array along which short lines are drawn; empty: none
+  double line_length = 0;        ///< in the length unit of the files; 0: a hundredth of what is in sight
+  std::optional<Focus> focus{};  ///< default: everything is in sight
 
   Vec3<double> view = {{-1.0, -1.5, 0.8}};  ///< from the scene towards the camera
   Vec3<double> up = {{0.0, 0.0, 1.0}};      ///< direction that points up in the picture

@@ -11,6 +11,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/stages/case.hpp"
+#include "tunica/stages/fibres/fibres_case.hpp"
 #include "tunica/stages/material_case.hpp"
 
 namespace tunica {
@@ -25,13 +26,17 @@ std::string read(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Documents, CaseFileOfTheReadmeIsValid) {
-  const std::string readme = read(root / "README.md");
+/// The first block of YAML in a page; empty when there is none.
+std::string first_yaml(const std::string& page) {
   const std::string fence = "```yaml\n";
-  const auto begin = readme.find(fence);
-  ASSERT_NE(begin, std::string::npos);
+  const auto begin = page.find(fence);
+  if (begin == std::string::npos) return {};
   const auto text = begin + fence.size();
-  const std::string yaml = readme.substr(text, readme.find("```", text) - text);
+  return page.substr(text, page.find("```", text) - text);
+}
+
+TEST(Documents, CaseFileOfTheReadmeIsValid) {
+  const std::string yaml = first_yaml(read(root / "README.md"));
   try {
     const stages::Case parsed = stages::parse_case(yaml, root / "README.md");
     EXPECT_TRUE(parsed.solves_fluid() && parsed.solves_wall());
@@ -52,6 +57,19 @@ TEST(Documents, MaterialFilesOfTheExamplesAreValid) {
       }
     }
   EXPECT_GT(files, 0);
+}
+
+TEST(Documents, FibresFilesAreValid) {
+  const auto expect_valid = [](const std::string& yaml, const fs::path& file) {
+    try {
+      EXPECT_FALSE(stages::fibres::parse_fibres_case(yaml, file).inlet.empty());
+    } catch (const InputError& error) {
+      ADD_FAILURE() << file << ": " << error.what();
+    }
+  };
+  const fs::path example = root / "examples" / "dissection" / "fibres.yaml", page = root / "docs" / "fibres.md";
+  expect_valid(read(example), example);
+  expect_valid(first_yaml(read(page)), page);
 }
 
 TEST(Documents, CitedEquationsExist) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "tunica/base/error.hpp"
@@ -210,6 +211,21 @@ TEST(SimVascular, RefusesMissingAndDamagedFiles) {
   fs::remove(volume);
   EXPECT_TRUE(contains(message_of<InputError>(read), "there is no such file"));
   EXPECT_THROW(read_simvascular(folder.path(), RegionKind::lumen, "x", {.metres_per_unit = 0}), InputError);
+}
+
+TEST(SimVascular, WritesElementFieldsThatReadBackToTheSameBits) {
+  auto data = tube({.radius = 0.01, .length = 0.02, .wall_thickness = 0.002, .cells_around = 8, .cells_along = 2});
+  ElementField field{"e1", 3, {}};
+  for (std::size_t i = 0; i < 3 * data.tetrahedra.size(); ++i)
+    field.values.push_back(std::sin(static_cast<double>(i) + 1.0 / 3));
+  data.fields = {field};
+  const TemporaryFolder folder;
+  write_simvascular(folder.path(), data, RegionKind::wall, 1e-3);
+  const auto read =
+      read_simvascular(folder.path(), RegionKind::wall, "wall", {.metres_per_unit = 1e-3, .fields = {"e1"}});
+  ASSERT_EQ(read.data.fields.size(), 1u);
+  const auto first = field.values.begin() + 3 * data.regions[1].first_element;
+  EXPECT_EQ(read.data.fields[0].values, std::vector(first, field.values.end()));
 }
 
 // The same surface in two files, one with coarser coordinates: join() must find the pairs of the original tube.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
@@ -13,6 +14,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
@@ -52,6 +54,11 @@ class Picture : public testing::Test {
       const vtkIdType nodes[8] = {n, n + 1, n + 4, n + 3, n + 9, n + 10, n + 13, n + 12};
       grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes);
     }
+    vtkNew<vtkDoubleArray> along;
+    along->SetName("along");
+    along->SetNumberOfComponents(3);
+    for (int c = 0; c < 8; ++c) along->InsertNextTuple3(3.0, 0.0, 0.0);
+    grid->GetCellData()->AddArray(along);
     grid->GetPointData()->AddArray(pressure);
     grid->GetPointData()->AddArray(displacement);
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -161,6 +168,32 @@ TEST_F(Picture, DrawsTheWantedStepOfASeries) {
   summary = render(options);
   EXPECT_EQ(summary.time, 0.1);
   EXPECT_EQ(summary.limits, (std::array<double, 2>{0.0, 7.0}));
+}
+
+TEST_F(Picture, DrawsLinesAlongVectorsAndShowsAFocus) {
+  auto options = front(write_cube("cube.vtu"));
+  options.array.clear();
+  options.width = 344;  // as wide as the cube's part of the other pictures
+  const auto dark = [&](double height) {
+    const auto colours = row(height);
+    return std::count_if(colours.begin(), colours.end(), [](const Colour& c) { return c[0] + c[1] + c[2] < 300; });
+  };
+  render(options);
+  EXPECT_EQ(dark(0.247), 0);
+  options.lines = "along";
+  options.line_length = 0.8;
+  render(options);
+  // The lines lie along x through the middles of the cells, half a unit (64 pixels) below the middle at 0.46.
+  EXPECT_GT(dark(0.244) + dark(0.247) + dark(0.25), 100);
+  EXPECT_EQ(dark(0.46), 0);
+  options.lines = "displacement";
+  EXPECT_THROW(render(options), InputError) << "it is of the points";
+  options.lines.clear();
+  options.focus = Focus{{{1.0, 0.0, 1.0}}, 0.5};
+  render(options);
+  EXPECT_FALSE(is_white(row(0.46)[40])) << "half the cube fills the picture";
+  options.focus->radius = 0;
+  EXPECT_THROW(render(options), InputError);
 }
 
 TEST_F(Picture, NamesTheArraysThatExist) {

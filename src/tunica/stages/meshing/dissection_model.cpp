@@ -227,6 +227,57 @@ DissectionModel::Values DissectionModel::at(const Point& p, double beyond) const
   return v;
 }
 
+DissectionModel::Axes DissectionModel::aorta_axes(const Point& p) const {
+  const auto c = centreline_.closest(p);
+  const Frame frame = centreline_.frame(c.s);
+  const double radius = radius_.at(c.s).value, inside = radius - c.distance;
+  const auto side = [&](const Point& q) {
+    const auto near = centreline_.closest(q);
+    return sheet(near, radius_.at(near.s).value).side;
+  };
+  const double here = side(p);
+  Axes axes{{}, frame.tangent, 0};
+  if (here < far && inside > 0 && std::abs(here) < inside) {
+    constexpr double step = 1e-5;
+    for (int i = 0; i < 3; ++i) {
+      Point before = p, after = p;
+      before[i] -= step;
+      after[i] += step;
+      axes.normal[i] = (side(after) - side(before)) / (2 * step);
+    }
+    axes.clear = inside;
+  } else {
+    axes.normal = c.x1 * frame.e1 + c.x2 * frame.e2 - radius_.at(c.s).slope * c.distance * frame.tangent;
+    axes.clear = std::max(0.0, here < far ? std::abs(here) - 0.5 * shape_.flap.thickness : far);
+  }
+  // Beyond the end of the centreline, where the iliac arteries part, there is no direction along the vessel.
+  if (c.beyond > 0) axes.clear = 0;
+  return axes;
+}
+
+DissectionModel::Axes DissectionModel::axes(const Point& p) const {
+  Axes axes = aorta_axes(p);
+  const auto c = centreline_.closest(p);
+  const double from_aorta = c.distance - radius_.at(c.s).value;
+  double nearest = std::max(from_aorta, 0.0);
+  for (const Tube& tube : tubes_) {
+    const Point d = p - tube.origin;
+    const double along = std::clamp(dot(d, tube.axis), 0.0, tube.length);
+    const Point away = d - along * tube.axis;
+    const double from_tube = norm(away) - tube.radius;
+    if (from_tube < nearest) {  // a wall belongs to the lumen that it is nearest to
+      nearest = std::max(from_tube, 0.0);
+      axes = {away, tube.axis, std::max(0.0, from_aorta)};
+    } else {
+      axes.clear = std::min(axes.clear, std::max(0.0, from_tube));
+    }
+  }
+  axes.normal = (1 / norm(axes.normal)) * axes.normal;
+  axes.longitudinal = axes.longitudinal - dot(axes.longitudinal, axes.normal) * axes.normal;
+  axes.longitudinal = (1 / norm(axes.longitudinal)) * axes.longitudinal;
+  return axes;
+}
+
 int DissectionModel::label(const Point& p) const {
   const Values v = at(p);
   return v.outer >= 0 ? outside_label : v.lumen < 0 ? lumen_label : wall_label;

@@ -62,6 +62,13 @@ class DissectionModel {
   Values at(const Point& p, double beyond = 0) const;
   int label(const Point& p) const;
 
+  /// Material directions at a point of wall or flap.
+  struct Axes {
+    Point normal, longitudinal;  ///< across the sheet or wall, outwards in the latter; along the vessel; orthonormal
+    double clear;                ///< distance from where wall, flap and branches meet, and no direction is right [m]
+  };
+  Axes axes(const Point& p) const;
+
   Box box() const { return box_; }                                         ///< 3 mm larger than the body
   const std::vector<RoundOpening>& openings() const { return openings_; }  ///< the first one is the inlet
   double aorta_radius(double s) const { return radius_.at(s).value; }
@@ -87,6 +94,7 @@ class DissectionModel {
     double flap, tear, side, weight;
   };
   Sheet sheet(const Centreline::Closest& c, double radius) const;
+  Axes aorta_axes(const Point& p) const;
   void join_tubes(const Point& p, double beyond, Values& v) const;
   double tear_rim(const TearShape& tear, double s, double m, double stretch) const;
   double share_of_true_lumen(double offset, double bow) const;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/mesh/simvascular.hpp"
+#include "tunica/stages/load_mesh.hpp"
 #include "tunica/stages/manifest.hpp"
 #include "tunica/stages/meshing/assemble.hpp"
 #include "tunica/stages/meshing/fidelity.hpp"
@@ -19,6 +19,7 @@
 #include "tunica/stages/meshing/projection.hpp"
 #include "tunica/stages/meshing/tetrahedralise.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
+#include "tunica/stages/phases.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -43,56 +44,11 @@ FillSettings fill_settings(double edge) {
   return settings;
 }
 
-/// Names and times the phases of the work.
-class Phases {
- public:
-  explicit Phases(const Say& say) : say_(say) {}
-  void begin(const std::string& phase) {
-    end();
-    phase_ = phase;
-    started_ = Clock::now();
-    tell("");
-  }
-  void tell(const std::string& state) {
-    say_(fmt::format("{:7.1f} s  {}{}{}", since(first_), phase_, state.empty() ? "" : ": ", state));
-  }
-  void end() {
-    if (!phase_.empty()) seconds.emplace_back(phase_, since(started_));
-    phase_.clear();
-  }
-  const std::string& phase() const { return phase_; }
-  std::vector<std::pair<std::string, double>> seconds;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static double since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
-  const Say& say_;
-  std::string phase_;
-  Clock::time_point first_ = Clock::now(), started_;
-};
 
 WallLayers find_layers(const Tetrahedra& mesh, const std::vector<Opening>& openings) {
   auto faces = sort_surface(mesh, openings);
   faces.interface.insert(faces.interface.end(), faces.outer.begin(), faces.outer.end());
   return wall_layers(mesh, faces.interface);
-}
-
-/// The `meshes:` section of a case on this mesh, paths relative to the folder that it lies in.
-std::string case_section(const std::vector<std::string>& wall_regions) {
-  std::string numbers;
-  for (std::size_t r = 0; r < wall_regions.size(); ++r)
-    numbers += fmt::format("{}{}: {}", r == 0 ? "" : ", ", wall_regions[r], r + 1);
-  return fmt::format(
-      "# For a case file in this folder; put the folder before the paths for one elsewhere.\n"
-      "meshes:\n"
-      "  length_unit: mm\n"
-      "  lumen: {{simvascular: lumen}}\n"
-      "  wall:\n"
-      "    simvascular: wall\n"
-      "    region_array: region\n"
-      "    regions: {{{}}}\n"
-      "  interface: {{lumen: {}, wall: {}}}\n",
-      numbers, lumen_interface, wall_interface);
 }
 
 }  // namespace
@@ -180,7 +136,8 @@ std::string mesh_to_files(const MeshCase& mesh_case, bool overwrite, const Say& 
   const MadeMesh made = make_mesh(mesh_case, say);
   mesh::write_simvascular(folder / "lumen", made.data, mesh::RegionKind::lumen, mm);
   const auto regions = mesh::write_simvascular(folder / "wall", made.data, mesh::RegionKind::wall, mm);
-  mesh::write_atomically(folder / "meshes.yaml", case_section(regions));
+  mesh::write_atomically(folder / "meshes.yaml",
+                         meshes_section(regions, InterfaceSettings{{lumen_interface}, {wall_interface}}));
   mesh::write_atomically(folder / "report.html", made.report_page);
   mesh::write_atomically(report_file, made.report_json);
   return made.report_text;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <variant>
 
 #include "tunica/config/schema.hpp"
 #include "tunica/mesh/mesh_data.hpp"
 #include "tunica/stages/meshing/geometry.hpp"
+#include "tunica/stages/phases.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -38,8 +38,6 @@ struct MadeMesh {
   std::string report_json, report_text;  ///< see mesh_report.hpp
   std::string report_page;               ///< see mesh_page.hpp
 };
-/// One line for the terminal: what is going on.
-using Say = std::function<void(const std::string& line)>;
 
 /// Throws SolverError when the mesh does not become what it has to be.
 MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say);

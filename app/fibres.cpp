@@ -1,0 +1,50 @@
+// tunica fibres: material directions in the wall of a mesh.
+#include "tunica/stages/fibres/fibres.hpp"
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "session.hpp"
+#include "tunica/parallel/message.hpp"
+
+namespace tunica::app {
+namespace {
+
+void fibres(const stages::fibres::FibresRequest& request) {
+  const bool speaks = parallel::rank(MPI_COMM_WORLD) == 0;
+  const auto say = [speaks](const std::string& line) {
+    if (!speaks) return;
+    std::printf("%s\n", line.c_str());
+    std::fflush(stdout);
+  };
+  const auto report = stages::fibres::fibres_to_files(request, MPI_COMM_WORLD, say);
+  say("\n" + report);
+}
+
+}  // namespace
+
+void add_fibres(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("fibres", "Material directions in the wall, for a case file to run on");
+  command->footer(
+      "Examples:\n  tunica fibres fibres.yaml\n  mpirun -n 2 tunica fibres fibres.yaml\n"
+      "Writes wall/ (with e1, e2, e3, m4, m6, jump, confidence in every element), lumen/, meshes.yaml (what goes into "
+      "the\ncase file) and report.json. Reference of the file: tunica schema --fibres");
+  const auto file = std::make_shared<std::string>(), output = std::make_shared<std::string>();
+  const auto overwrite = std::make_shared<bool>(false);
+  command->add_option("file", *file, "The mesh, its faces, the angles of the fibres")->required();
+  command->add_option("-o,--output", *output, "Folder of the result, instead of the one that the file names");
+  command->add_flag("--overwrite", *overwrite, "Replace a result that is there");
+  command->callback([=] {
+    stages::fibres::FibresRequest request{.file = *file, .overwrite = *overwrite};
+    if (!output->empty()) request.output = *output;
+    throw CLI::RuntimeError(in_session([&] {
+      fibres(request);
+      return 0;
+    }));
+  });
+}
+
+}  // namespace tunica::app

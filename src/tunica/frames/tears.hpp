@@ -1,0 +1,25 @@
+// Where the lumens of a dissection communicate.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tunica/frames/element_graph.hpp"
+
+namespace tunica::frames {
+
+/// Wall regions along the two lumens.
+struct LumenWalls {
+  std::vector<std::string> true_lumen, false_lumen;
+};
+
+/// Centroids [m] of the lumen elements in which a harmonic function changes its sign that is 1 on the walls of the true
+/// and -1 on those of the false lumen, with no flux through the flap: they lie across the tears. All of them on every
+/// rank, in an order that depends on the ranks. Throws InputError when a region does not exist, when no interface node
+/// touches either kind of wall, or when there is no such element. Collective.
+std::vector<Vec3<double>> tear_points(const mesh::DistributedMesh& mesh, const LumenWalls& walls);
+
+/// Distance of the centroid of each owned element to the nearest of `points` [m].
+std::vector<double> distances(const ElementGraph& graph, const std::vector<Vec3<double>>& points);
+
+}  // namespace tunica::frames
