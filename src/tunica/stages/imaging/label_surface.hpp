@@ -23,7 +23,7 @@ struct ImageOpening {
 
 struct SurfaceSettings {
   LumenLabels labels;
-  double smoothing = 0.9;                                      ///< standard deviation of the filter [voxels]
+  double smoothing = 0.85;                                      ///< standard deviation of the filter [voxels]
   std::vector<std::pair<std::string, ImageOpening>> openings;  ///< none: all flat ends that are found
 
   static void add_to(config::Schema<SurfaceSettings>& schema);

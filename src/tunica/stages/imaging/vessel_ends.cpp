@@ -286,15 +286,15 @@ std::optional<VesselEnd> end_at(const SmoothField& field, const Point& centre, c
 void continue_beyond(const VesselEnd& end, double reach, LumenMask& mask) {
   const auto& frame = mask.frame;
   const auto to_voxels = inverse(frame.matrix());
-  const double voxel = frame.largest_spacing();
+  const double voxel = frame.largest_spacing(), worn = 1.5 * voxel;
   const auto before = mask.kinds;
   for (std::int64_t i = 0; i < std::ssize(mask.kinds); ++i) {
     const auto way = frame.place(frame.voxel(i)) - end.centre;
-    const double height = dot(way, end.normal);
-    if (height <= 0 || height > reach + 2 * voxel) continue;
+    const double height = dot(way, end.normal) + worn;
+    if (height <= 0 || height > reach + worn + 2 * voxel) continue;
     if (norm(way - height * end.normal) > end.radius + 2 * voxel) continue;
     Kind kind = Kind::tissue;
-    if (height <= reach) {
+    if (height <= reach + worn) {
       const Point mirrored = to_voxels * (end.centre + way - 2 * height * end.normal - frame.origin);
       const Size3 v{std::lround(mirrored[0]), std::lround(mirrored[1]), std::lround(mirrored[2])};
       if (frame.holds(v[0], v[1], v[2])) kind = before[frame.index(v[0], v[1], v[2])];

@@ -24,7 +24,8 @@ std::vector<VesselEnd> find_ends(const LumenMask& mask, const SmoothField& field
 std::optional<VesselEnd> end_at(const SmoothField& field, const Point& centre, const Vec3<double>& normal);
 
 /// Goes on with the vessel beyond the end, as its mirror image, for `reach` [m] and with tissue after that: smoothing
-/// then leaves the end as sharp as it is, and the plane cuts an open vessel.
+/// then does not round the end, and the plane cuts an open vessel. The mirror stands one and a half voxels before the
+/// end, since scanners blur the rims of what ends.
 void continue_beyond(const VesselEnd& end, double reach, LumenMask& mask);
 
 }  // namespace tunica::stages::imaging
