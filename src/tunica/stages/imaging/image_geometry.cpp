@@ -34,7 +34,9 @@ config::Schema<ImageGeometry> ImageGeometry::schema() {
 
 meshing::PatientSurfaces surfaces_from_image(const ImageGeometry& geometry, const meshing::ComplexOptions& options) {
   const auto made = surface_of(read_label_image(geometry.file), geometry.surface, options.log);
-  return meshing::with_grown_wall(made.lumen, made.names, geometry.wall, options);
+  std::vector<meshing::NamedPlace> names;
+  for (const auto& [name, opening] : geometry.surface.openings) names.push_back({name, made.ends[names.size()].centre});
+  return meshing::with_grown_wall(made.lumen, names, geometry.wall, options);
 }
 
 }  // namespace tunica::stages::imaging

@@ -215,8 +215,6 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   auto surface = largest_part(boundary(smooth_field(mask, settings.smoothing)));
   smooth_surface(surface, sweeps);
   result.lumen = cut_open(std::move(surface), result.ends, voxel);
-  for (std::size_t i = 0; i < settings.openings.size(); ++i)
-    result.names.push_back({settings.openings[i].first, result.ends[i].centre});
   log_shape(result, settings.labels.false_lumen.has_value(), log);
   return result;
 }

@@ -9,7 +9,6 @@
 #include "tunica/config/schema.hpp"
 #include "tunica/stages/imaging/lumen_mask.hpp"
 #include "tunica/stages/imaging/vessel_ends.hpp"
-#include "tunica/stages/meshing/openings.hpp"
 
 namespace tunica::stages::imaging {
 
@@ -23,16 +22,15 @@ struct ImageOpening {
 
 struct SurfaceSettings {
   LumenLabels labels;
-  double smoothing = 0.85;                                      ///< standard deviation of the filter [voxels]
-  std::vector<std::pair<std::string, ImageOpening>> openings;  ///< none: all flat ends that are found
+  double smoothing = 0.85;                                       ///< standard deviation of the filter [voxels]
+  std::vector<std::pair<std::string, ImageOpening>> openings{};  ///< none: all flat ends that are found
 
   static void add_to(config::Schema<SurfaceSettings>& schema);
 };
 
 struct LabelSurface {
-  meshing::TriangleSurface lumen;          ///< open at the vessel ends, with plane rims and outward normals
-  std::vector<meshing::NamedPlace> names;  ///< of the openings that were given
-  std::vector<VesselEnd> ends;
+  meshing::TriangleSurface lumen;  ///< open at the vessel ends, with plane rims and outward normals
+  std::vector<VesselEnd> ends;     ///< in the order of the openings that were given
   std::vector<Contact> tears;
 };
 

@@ -3,7 +3,7 @@
 namespace tunica::stages::imaging {
 
 void smooth_surface(meshing::TriangleSurface& surface, int sweeps) {
-  constexpr double towards = 0.5, away = -0.52;  // pass band up to 1 / towards + 1 / away = 0.077
+  constexpr double towards = 0.5, away = -0.52;  // pass band of (9.3): 1/0.5 - 1/0.52 = 0.077
   auto& points = surface.points;
   const auto all = meshing::edges(surface);
   std::vector<double> share(points.size(), 0);

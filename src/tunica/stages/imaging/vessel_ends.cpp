@@ -200,6 +200,18 @@ std::array<double, 3> fitted_plane(const std::vector<std::array<double, 3>>& poi
   return {solution[0], solution[1], solution[2]};
 }
 
+/// The end in a plane: its centre is that of two cross-sections before it, carried on along the vessel.
+std::optional<VesselEnd> centred(const SmoothField& field, const Point& in_plane, const Vec3<double>& normal,
+                                 double radius) {
+  const double step = 1.5 * field.frame.largest_spacing();
+  const auto near = section(field, in_plane - step * normal, normal);
+  if (near.places.empty()) return {};
+  const auto far = section(field, near.centre - step * normal, normal);
+  if (far.places.empty() || far.radius > 2 * radius) return {};
+  const Point centre = 2.0 * near.centre - far.centre;
+  return VesselEnd{centre + dot(in_plane - centre, normal) * normal, normal, near.radius};
+}
+
 /// The flat face in which a vessel ends ahead of a point on its axis; none where it ends in another way.
 std::optional<VesselEnd> flat_face(const SmoothField& field, const Point& behind, const Vec3<double>& axis) {
   const auto cut = section(field, behind, axis);
@@ -227,9 +239,7 @@ std::optional<VesselEnd> flat_face(const SmoothField& field, const Point& behind
   if (std::hypot(plane[1], plane[2]) > steepest) return {};
   auto normal = axis - plane[1] * cut.u - plane[2] * cut.v;
   normal = (1 / norm(normal)) * normal;
-  const Point in_plane = behind + plane[0] * axis;
-  const Point centre = cut.centre + (dot(in_plane - cut.centre, normal) / dot(axis, normal)) * axis;
-  return VesselEnd{centre, normal, cut.radius};
+  return centred(field, behind + plane[0] * axis, normal, cut.radius);
 }
 
 template <class Depth>
