@@ -49,7 +49,7 @@ endfunction()
 # Sources that include CGAL: its interval arithmetic needs -frounding-math, and its own assertions cost half the time.
 function(tunica_cgal_sources)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-frounding-math"
-    COMPILE_DEFINITIONS "NDEBUG;CGAL_USE_GMP;CGAL_USE_MPFR;CGAL_MESH_3_MESHER_STATUS_ACTIVATED")
+    COMPILE_DEFINITIONS "NDEBUG;CGAL_USE_GMP;CGAL_USE_MPFR")
 endfunction()
 
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.

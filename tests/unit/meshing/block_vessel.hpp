@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tunica/mesh/generate.hpp"
-#include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/stages/meshing/openings.hpp"
 #include "tunica/stages/meshing/tetrahedra.hpp"
 
 namespace tunica::stages::meshing::test {
@@ -43,8 +43,8 @@ inline Tetrahedra block_vessel(const BlockVessel& v) {
 /// The two ends; `outer_radius` covers the corners of the square.
 inline std::vector<Opening> block_openings(const BlockVessel& v) {
   const double middle = v.across * 0.5e-3, radius = v.across * 0.72e-3;
-  return {{"inlet", {{middle, middle, 0}}, {{0, 0, -1}}, radius, radius},
-          {"outlet", {{middle, middle, v.along * 1e-3}}, {{0, 0, 1}}, radius, radius}};
+  return {{"inlet", {{middle, middle, 0}}, {{0, 0, -1}}, 0, radius, {}, {}, 0},
+          {"outlet", {{middle, middle, v.along * 1e-3}}, {{0, 0, 1}}, 0, radius, {}, {}, 0}};
 }
 
 inline double volume(const Tetrahedra& mesh, int label) {

@@ -85,8 +85,8 @@ TEST(DissectionModel, OpeningsAreRoundAndPlane) {
       EXPECT_EQ(label(o.lumen_radius - eps, -eps), lumen_label) << o.name;
       EXPECT_EQ(label(o.lumen_radius + eps, -eps), wall_label) << o.name;
       EXPECT_EQ(label(o.outer_radius - eps, -eps), wall_label) << o.name;
-      EXPECT_EQ(label(o.outer_radius + eps, -eps), outside) << o.name;
-      EXPECT_EQ(label(o.lumen_radius - eps, eps), outside) << o.name;
+      EXPECT_EQ(label(o.outer_radius + eps, -eps), outside_label) << o.name;
+      EXPECT_EQ(label(o.lumen_radius - eps, eps), outside_label) << o.name;
     }
   }
 }

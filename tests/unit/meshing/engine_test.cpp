@@ -1,94 +1,94 @@
-// The engine on bodies whose volumes and topology are known.
+// The engine on a tube with a wall, whose volumes are known.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <set>
 
 #include "block_vessel.hpp"
-#include "tunica/base/error.hpp"
+#include "small_surfaces.hpp"
 #include "tunica/stages/meshing/improve.hpp"
 #include "tunica/stages/meshing/mesh_report.hpp"
+#include "tunica/stages/meshing/projection.hpp"
 #include "tunica/stages/meshing/tetrahedralise.hpp"
 
 namespace tunica::stages::meshing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using namespace test;
 
-LabelDomain body(std::function<int(const Point&)> label, double reach, double size) {
-  LabelDomain domain;
-  domain.label = std::move(label);
-  domain.box = {{{-reach, -reach, -reach}}, {{reach, reach, reach}}};
-  domain.surface_size = [size](const Point&) { return size; };
-  domain.volume_size = [size](const Point&, int) { return 1.5 * size; };
-  domain.surface_distance = [size](const Point&) { return 0.06 * size; };
-  return domain;
+constexpr double pi = M_PI;
+
+PreparedSurfaces tube_with_wall() {
+  ComplexOptions options;
+  options.sizes.largest = 1.5e-3;
+  return patient_complex(
+      {tube(5e-3, 20e-3, 60, 30), tube(6e-3, 20e-3, 72, 30), {{"in", {{0, 0, 0}}}, {"out", {{0, 0, 20e-3}}}}}, options);
 }
 
-std::vector<std::array<Index, 3>> boundary_of(const Tetrahedra& mesh, int label) {
-  std::vector<std::array<Index, 3>> triangles;
-  for (const auto& t : surface_triangles(mesh))
-    if (t.label == label || t.neighbour_label == label) triangles.push_back(t.nodes);
-  return triangles;
-}
-
-TEST(Tetrahedralise, TorusInAShell) {
-  // A torus of lumen (radii 10 and 3 mm) with a wall of 1.5 mm around it.
-  const double R = 10e-3, r = 3e-3, wall = 1.5e-3;
-  const auto domain = body(
-      [=](const Point& p) {
-        const double d = std::hypot(std::hypot(p[0], p[1]) - R, p[2]);
-        return d < r ? lumen_label : d < r + wall ? wall_label : outside;
-      },
-      16e-3, 1.6e-3);
-  auto mesh = tetrahedralise(domain, [](const std::string&, const std::string&) {});
-  improve(mesh, projection(domain), {}, [](const std::string&) {});
-  const double lumen = 2 * pi * pi * R * r * r, all = 2 * pi * pi * R * (r + wall) * (r + wall);
-  EXPECT_NEAR(test::volume(mesh, lumen_label) / lumen, 1, 0.03);
-  EXPECT_NEAR(test::volume(mesh, wall_label) / (all - lumen), 1, 0.03);
-  for (const int label : {lumen_label, wall_label}) {
-    const auto t = topology(boundary_of(mesh, label));
-    EXPECT_TRUE(t.manifold);
-    EXPECT_EQ(t.parts, label == lumen_label ? 1 : 2);
-    EXPECT_EQ(t.genus, label == lumen_label ? 1 : 2);
+std::set<std::array<Index, 3>> sorted(const std::vector<Triangle>& triangles) {
+  std::set<std::array<Index, 3>> result;
+  for (auto t : triangles) {
+    std::sort(t.begin(), t.end());
+    result.insert(t);
   }
+  return result;
+}
+
+TEST(Tetrahedralise, KeepsEveryTriangleAndVolume) {
+  const auto prepared = tube_with_wall();
+  const auto mesh = tetrahedralise(prepared.complex, prepared.sizes, {});
+  EXPECT_NEAR(test::volume(mesh, lumen_label) / volume(prepared.complex, Label::lumen), 1, 1e-9);
+  EXPECT_NEAR(test::volume(mesh, wall_label) / volume(prepared.complex, Label::wall), 1, 1e-9);
+  std::vector<Triangle> faces;
+  for (const auto& t : surface_triangles(mesh)) faces.push_back(t.nodes);
+  EXPECT_EQ(sorted(faces), sorted(prepared.complex.triangles));
+  Index on_curve = 0, on_rim = 0;
+  for (const bool on : mesh.on_curve) on_curve += on;
+  for (const auto& rim : prepared.complex.rims) on_rim += std::ssize(rim.points);
+  EXPECT_EQ(on_curve, on_rim);
+}
+
+TEST(Tetrahedralise, InsideIsAsFineAsAsked) {
+  const auto prepared = tube_with_wall();
+  const auto count = [&](double in_lumen) {
+    return std::ssize(tetrahedralise(prepared.complex, prepared.sizes, {.in_lumen = in_lumen, .in_wall = 2}).elements);
+  };
+  EXPECT_GT(count(0.7), 1.5 * static_cast<double>(count(1.4)));
+}
+
+TEST(Tetrahedralise, ShapesAreGoodAfterImprovement) {
+  const auto prepared = tube_with_wall();
+  auto mesh = tetrahedralise(prepared.complex, prepared.sizes, {});
+  improve(mesh, projection(prepared), {}, [](const std::string&) {});
   const mesh::MeshData data{mesh.points, mesh.elements, {}, {}, {}, {}};
-  EXPECT_GT(shapes(data, 0, std::ssize(mesh.elements)).smallest_dihedral, 8);
+  EXPECT_GT(shapes(data, 0, std::ssize(mesh.elements)).smallest_dihedral, 10);
+  EXPECT_NEAR(test::volume(mesh, lumen_label) / (pi * 25e-6 * 20e-3), 1, 5e-3);
+  EXPECT_NEAR(test::volume(mesh, wall_label) / (pi * 11e-6 * 20e-3), 1, 5e-3);
 }
 
-TEST(Tetrahedralise, RimsOfACutTubeAreKept) {
-  // A cylinder between two planes; its rims are curves.
-  const double r = 4e-3, half = 5e-3;
-  auto domain =
-      body([=](const Point& p) { return std::hypot(p[0], p[1]) < r && std::abs(p[2]) < half ? lumen_label : outside; },
-           7e-3, 1.5e-3);
-  for (const double z : {-half, half}) {
-    auto& rim = domain.curves.emplace_back();
-    for (int k = 0; k <= 100; ++k)
-      rim.push_back({{r * std::cos(2 * pi * (k % 100) / 100), r * std::sin(2 * pi * (k % 100) / 100), z}});
-  }
-  const auto mesh = tetrahedralise(domain, [](const std::string&, const std::string&) {});
-  double cap = 0;
-  Index on_rim = 0;
-  for (std::size_t n = 0; n < mesh.points.size(); ++n) {
-    const Point& p = mesh.points[n];
-    if (!mesh.on_curve[n]) continue;
-    ++on_rim;
-    EXPECT_NEAR(std::abs(p[2]), half, 1e-9);
-    EXPECT_NEAR(std::hypot(p[0], p[1]), r, 1e-5);
-  }
-  EXPECT_GT(on_rim, 20);
-  for (const auto& t : surface_triangles(mesh)) {
-    const auto& [a, b, c] = t.nodes;
-    const auto &x = mesh.points[a], &y = mesh.points[b], &z = mesh.points[c];
-    if (std::min({x[2], y[2], z[2]}) > half - 1e-6) cap += 0.5 * norm(cross(y - x, z - x));
-  }
-  EXPECT_NEAR(cap / (pi * r * r), 1, 0.03);
+TEST(Tetrahedralise, AnOpenComplexIsAnError) {
+  auto complex = tube_with_wall().complex;
+  complex.triangles.resize(complex.triangles.size() - 40);
+  complex.patch_of.resize(complex.triangles.size());
+  EXPECT_TRUE(says(message_of<SolverError>([&] { tetrahedralise(complex, [](const Point&) { return 1e-3; }, {}); }),
+                   "not closed"));
 }
 
-TEST(Tetrahedralise, NothingToMeshIsAnError) {
-  const auto domain = body([](const Point&) { return outside; }, 5e-3, 1e-3);
-  EXPECT_THROW(tetrahedralise(domain, [](const std::string&, const std::string&) {}), SolverError);
+TEST(Projection, FindsTheSurfaceThatFacesTheSameWay) {
+  const auto prepared = tube_with_wall();
+  const auto project = projection(prepared);
+  const Point normal{{1, 0, 0}};
+  Point p{{5.2e-3, 0, 10e-3}};
+  ASSERT_TRUE(project(p, normal, lumen_label, wall_label, 0.5e-3));
+  EXPECT_NEAR(p[0], 5e-3, 1e-5);
+  p = {{5.6e-3, 0, 10e-3}};
+  ASSERT_TRUE(project(p, normal, wall_label, outside_label, 0.5e-3));
+  EXPECT_NEAR(p[0], 6e-3, 1e-5);
+  EXPECT_FALSE(project(p, normal, lumen_label, wall_label, 0.5e-3));           // out of reach
+  EXPECT_FALSE(project(p, -1.0 * normal, wall_label, outside_label, 0.5e-3));  // the other way
+  p = {{1e-3, 1e-3, 1e-6}};
+  ASSERT_TRUE(project(p, {{0, 0, -1}}, lumen_label, outside_label, 0.5e-3));
+  EXPECT_EQ(p[2], 0);
 }
 
 }  // namespace

@@ -20,17 +20,6 @@ double worst(const Tetrahedra& mesh) {
   return sine;
 }
 
-/// A ball of radius 4 mm in a box of 10 mm: one curved surface, a plane one whose edges must not move.
-LabelDomain ball_in_box() {
-  LabelDomain domain;
-  domain.label = [](const Point& p) {
-    for (int i = 0; i < 3; ++i)
-      if (p[i] < 0 || p[i] > 0.01) return outside;
-    return norm(p - Point{{5e-3, 5e-3, 5e-3}}) < 4e-3 ? lumen_label : wall_label;
-  };
-  return domain;
-}
-
 TEST(Improve, MendsNodesThatWereShakenInside) {
   const auto box = mesh::box(10, 10, 10, {{0.01, 0.01, 0.01}}, mesh::RegionKind::wall);
   Tetrahedra mesh{box.points, box.tetrahedra, std::vector<int>(box.tetrahedra.size(), wall_label),
@@ -49,29 +38,18 @@ TEST(Improve, MendsNodesThatWereShakenInside) {
   }
   const double before = worst(mesh);
   ASSERT_LT(before, 0.03);
-  LabelDomain solid;
-  solid.label = [](const Point& p) {
-    for (int i = 0; i < 3; ++i)
-      if (p[i] < 0 || p[i] > 0.01) return outside;
-    return wall_label;
+  // Nodes of the box's sides stay in their planes.
+  const Projection sides = [](Point& p, const Point&, int, int, double) {
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(p[i]) < 1e-9) p[i] = 0;
+      if (std::abs(p[i] - 0.01) < 1e-9) p[i] = 0.01;
+    }
+    return true;
   };
-  const auto done = improve(mesh, projection(solid), {}, [](const std::string&) {});
+  const auto done = improve(mesh, sides, {}, [](const std::string&) {});
   EXPECT_GT(worst(mesh), std::sin(12 * 3.14159 / 180));
   EXPECT_GT(done.moves, 0);
   EXPECT_NEAR(test::volume(mesh, wall_label), 1e-6, 1e-13);  // the box is what it was
-}
-
-TEST(Improve, ProjectionFindsTheSurfaceBetweenTwoLabelsOnly) {
-  const auto domain = ball_in_box();
-  const auto project = projection(domain);
-  const Point centre{{5e-3, 5e-3, 5e-3}}, normal{{1, 0, 0}};
-  Point p = centre + 3.9e-3 * normal;
-  ASSERT_TRUE(project(p, normal, lumen_label, wall_label, 0.5e-3));
-  EXPECT_NEAR(norm(p - centre), 4e-3, 1e-6);
-  p = centre + 3e-3 * normal;
-  EXPECT_FALSE(project(p, normal, lumen_label, wall_label, 0.5e-3));  // out of reach
-  p = centre + 4.1e-3 * normal;
-  EXPECT_FALSE(project(p, normal, wall_label, outside, 0.5e-3));  // another surface
 }
 
 TEST(Layers, NoEdgeCrossesTheWallAfterwards) {
@@ -96,13 +74,8 @@ TEST(Layers, NoEdgeCrossesTheWallAfterwards) {
   EXPECT_NEAR(test::volume(mesh, wall_label), wall, 1e-15);
   EXPECT_GT(worst(mesh), 0);
   // The optimiser keeps it so.
-  const LabelDomain none{.label = [](const Point&) { return outside; },
-                         .box = {},
-                         .curves = {},
-                         .surface_size = {},
-                         .volume_size = {},
-                         .surface_distance = {}};
-  improve(mesh, projection(none), {.wanted_dihedral = 40, .keep_layers = true}, [](const std::string&) {});
+  const Projection nowhere = [](Point&, const Point&, int, int, double) { return false; };
+  improve(mesh, nowhere, {.wanted_dihedral = 40, .keep_layers = true}, [](const std::string&) {});
   EXPECT_EQ(wall_layers(mesh, sides()).bridged_nodes, 0);
 }
 

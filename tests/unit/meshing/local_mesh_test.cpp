@@ -35,7 +35,7 @@ TEST(LocalMesh, NodesKnowWhereTheyAre) {
     const Point& x = mesh.points[n];
     if (x[0] == 0 && x[1] > 0.0015 && x[1] < 0.0075 && x[2] > 0.0005 && x[2] < 0.0235) {
       EXPECT_EQ(local.place(n), LocalMesh::Place::surface);
-      EXPECT_EQ(local.sides(n), (std::array<int, 2>{wall_label, outside}));
+      EXPECT_EQ(local.sides(n), (std::array<int, 2>{wall_label, outside_label}));
       EXPECT_NEAR(norm(local.normal(n) - Point{{-1, 0, 0}}), 0, 1e-12);
     }
   }

@@ -109,12 +109,12 @@ TEST(Assemble, LumenAtTheOutsideIsAnError) {
     }
   const auto triangles = surface_triangles(mesh);
   const bool breached = std::any_of(triangles.begin(), triangles.end(), [&](const LabelledTriangle& t) {
-    return t.label == lumen_label && t.neighbour_label == outside && mesh.points[t.nodes[0]][2] > 0.001 &&
+    return t.label == lumen_label && t.neighbour_label == outside_label && mesh.points[t.nodes[0]][2] > 0.001 &&
            mesh.points[t.nodes[0]][2] < 0.023;
   });
   if (!breached)  // else make one
     for (const auto& t : triangles)
-      if (t.label == wall_label && t.neighbour_label == outside && mesh.points[t.nodes[0]][2] > 0.002 &&
+      if (t.label == wall_label && t.neighbour_label == outside_label && mesh.points[t.nodes[0]][2] > 0.002 &&
           mesh.points[t.nodes[0]][2] < 0.02) {
         mesh.labels[t.element] = lumen_label;
         break;
@@ -173,7 +173,12 @@ TEST(MeshReport, TopologyCountsHandles) {
 TEST(MeshReport, VolumesAreasAndShapes) {
   const auto b = make_block();
   const auto data = assemble(b.mesh, b.openings, b.faces, find(b));
-  const auto report = mesh_report({data, wall_layers(b.mesh, b.faces.outer), {{"test", 1.5}}, 1e6});
+  const double lumen = test::volume(b.mesh, lumen_label), wall = test::volume(b.mesh, wall_label);
+  const Fidelity fidelity{{1e-4, 0.1}, {2e-4, 0.2}, lumen / 1.01, wall / 0.98};
+  const auto report = mesh_report({data, wall_layers(b.mesh, b.faces.outer), fidelity, {{"test", 1.5}}, 1e6});
+  EXPECT_NEAR(report["fidelity"]["lumen_volume_percent"].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(report["fidelity"]["wall_volume_percent"].get<double>(), -2, 1e-9);
+  EXPECT_NEAR(report["fidelity"]["outer_distance_mm"].get<double>(), 0.2, 1e-12);
   double volume = 0;
   for (const auto& region : report["regions"]) volume += region["volume_ml"].get<double>();
   EXPECT_NEAR(volume, 9 * 9 * 24 * 1e-3, 1e-9);

@@ -83,8 +83,8 @@ TEST(PatientComplex, WithAGrownWall) {
   EXPECT_NEAR(volume(prepared.complex, Label::lumen) / (ball + tubes), 1, 1e-2);
   // Between the lumens lies a flap of 2 mm, elsewhere the wall of 1.5 mm.
   double flap = 1, wall = 1;
-  for (std::size_t p = 0; p < prepared.lumen.points.size(); ++p)
-    if (const auto& x = prepared.lumen.points[p]; std::abs(x[2]) < 5e-3) {
+  for (std::size_t p = 0; p < prepared.lumen.surface().points.size(); ++p)
+    if (const auto& x = prepared.lumen.surface().points[p]; std::abs(x[2]) < 5e-3) {
       auto& least = prepared.thickness.flap[p] ? flap : wall;
       least = std::min(least, prepared.thickness.value[p]);
     }

@@ -31,7 +31,7 @@ Volumes count_volumes(const DissectionModel& model) {
     for (double y = box.low[1] + 0.61 * h; y < box.high[1]; y += h)
       for (double z = box.low[2] + 0.13 * h; z < box.high[2]; z += h) {
         const int label = model.label({{x, y, z}});
-        (label == lumen_label ? v.lumen : v.wall) += label == outside ? 0 : h * h * h * 1e6;
+        (label == lumen_label ? v.lumen : v.wall) += label == outside_label ? 0 : h * h * h * 1e6;
       }
   return v;
 }
@@ -111,7 +111,7 @@ TEST(DissectionMesh, MatchesTheBodyAtTwoSizes) {
                          .value;
   const DissectionModel model(shape);
   const Volumes exact = count_volumes(model);
-  const std::pair<Size, double> sizes[] = {{Coarse{}, 0.015}, {Medium{}, 0.006}};
+  const std::pair<Size, double> sizes[] = {{Coarse{}, 0.005}, {Medium{}, 0.005}};
   for (const auto& [size, tolerance] : sizes) {
     const auto r = make(shape, size);
     std::printf(

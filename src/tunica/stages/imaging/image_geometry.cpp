@@ -2,33 +2,17 @@
 
 namespace tunica::stages::imaging {
 
-namespace {
-
-config::Schema<meshing::GrowthSettings> growth_schema() {
-  using G = meshing::GrowthSettings;
-  using namespace config;
-  return Schema<G>("wall", "The wall that is grown outward from the lumen.")
-      .number("per_radius", &G::per_radius, range(0.02, 0.5), "Thickness over the radius of the vessel")
-      .by_default()
-      .quantity("thinnest", &G::thinnest, dimension::length, range(0.3e-3, 6e-3), "Thickness of narrow vessels")
-      .by_default("1.2 mm")
-      .quantity("thickest", &G::thickest, dimension::length, range(0.3e-3, 6e-3), "Thickness of wide vessels")
-      .by_default("2 mm")
-      .check([](const G& g, Problems& problems) {
-        if (g.thinnest > g.thickest)
-          problems.add("thinnest", "is above `thickest`", "exchange them, or give equal ones for a uniform wall");
-      });
-}
-
-}  // namespace
-
 config::Schema<ImageGeometry> ImageGeometry::schema() {
   config::Schema<ImageGeometry> schema("image", "A segmented image: a label for each voxel of true and false lumen.");
   schema.file("file", &ImageGeometry::file, "NRRD (.nrrd, .nhdr), MetaImage (.mha, .mhd) or NIfTI (.nii, .nii.gz)");
   config::Schema<SurfaceSettings> surface("surface", "Labels and vessel ends.");
   SurfaceSettings::add_to(surface);
   schema.include(&ImageGeometry::surface, surface);
-  schema.section("wall", &ImageGeometry::wall, growth_schema(), "The wall around the lumen").by_default();
+  schema
+      .texts("aorta_ends", &ImageGeometry::aorta_ends,
+             "Openings besides the inlet where the aorta itself is cut; all others end branches")
+      .by_default("[]");
+  schema.section("wall", &ImageGeometry::wall, meshing::GrowthSettings::schema(), "How the wall is grown").by_default();
   return schema;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "tunica/config/schema.hpp"
 #include "tunica/stages/imaging/label_surface.hpp"
@@ -12,6 +14,7 @@ namespace tunica::stages::imaging {
 struct ImageGeometry {
   std::filesystem::path file;
   SurfaceSettings surface;
+  std::vector<std::string> aorta_ends;  ///< openings besides the inlet where the aorta itself is cut
   meshing::GrowthSettings wall;
 
   static config::Schema<ImageGeometry> schema();

@@ -112,15 +112,16 @@ void check_inlet(const LumenMask& mask, const VesselEnd& inlet) {
   }
   if (true_lumen == 0 || all == 0)
     throw InputError("inlet at " + in_mm(inlet.centre), "there is no true lumen",
-                     "exchange the labels of the lumens, or name the opening with true lumen `inlet`");
+                     "exchange the labels of the lumens, or name another opening as `inlet`");
 }
 
-/// The end that is called inlet, else the first one with a name, else the widest.
 const VesselEnd& inlet_of(const std::vector<VesselEnd>& ends, const SurfaceSettings& settings) {
-  for (std::size_t i = 0; i < settings.openings.size(); ++i)
-    if (settings.openings[i].first == "inlet") return ends[i];
-  if (!settings.openings.empty()) return ends.front();
-  return *std::max_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  if (settings.openings.empty())
+    return *std::max_element(ends.begin(), ends.end(),
+                             [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (settings.openings[i].first == settings.inlet) return ends[i];
+  return ends.front();
 }
 
 TriangleSurface largest_part(const TriangleSurface& surface) {
@@ -164,7 +165,7 @@ void log_shape(const LabelSurface& result, bool dissected, const Log& log) {
   if (const auto expected = std::max<std::int64_t>(0, std::ssize(result.tears) - 1); dissected && genus != expected)
     log(fmt::format(
         "warning: {} tears make a surface of genus {}, this one has {}. The flap has holes that the labels do "
-        "not have, a tear was closed, or vessels touch: look at the surface, and correct the labels or give "
+        "not have, a tear was closed, or vessels touch: look at the mesh, and correct the labels or give "
         "another `smoothing`",
         result.tears.size(), expected, genus));
 }
@@ -200,7 +201,14 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
       .by_default()
       .map("openings", &S::openings, ImageOpening::schema(),
            "Vessel ends by name. When left out, all flat ends are opened and called inlet (the widest), outlet_1, ...")
-      .by_default();
+      .by_default()
+      .text("inlet", &S::inlet, "Name of the inlet; when left out, the first of the openings")
+      .optional()
+      .check([](const S& s, Problems& problems) {
+        const auto named = [&](const auto& o) { return o.first == s.inlet; };
+        if (!s.inlet.empty() && std::none_of(s.openings.begin(), s.openings.end(), named))
+          problems.add("inlet", "no opening is called '" + s.inlet + "'", "name the vessel ends in `openings`");
+      });
 }
 
 LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings, const Log& log) {

@@ -24,6 +24,7 @@ struct SurfaceSettings {
   LumenLabels labels;
   double smoothing = 0.85;                                       ///< standard deviation of the filter [voxels]
   std::vector<std::pair<std::string, ImageOpening>> openings{};  ///< none: all flat ends that are found
+  std::string inlet{};  ///< name of an opening; empty: the first one, or the widest end
 
   static void add_to(config::Schema<SurfaceSettings>& schema);
 };

@@ -15,13 +15,8 @@ namespace {
 /// The opening in whose plane all nodes of the triangle lie, within its rim; -1: none.
 int opening_of(const Tetrahedra& mesh, const std::array<Index, 3>& nodes, const std::vector<Opening>& openings) {
   for (std::size_t o = 0; o < openings.size(); ++o) {
-    const auto& opening = openings[o];
-    const double flat = 1e-3 * opening.outer_radius, rim = 1.01 * opening.outer_radius;
-    const bool within = std::all_of(nodes.begin(), nodes.end(), [&](Index n) {
-      const Point d = mesh.points[n] - opening.centre;
-      return std::abs(dot(d, opening.normal)) < flat && norm(d) < rim;
-    });
-    if (within) return static_cast<int>(o);
+    if (std::all_of(nodes.begin(), nodes.end(), [&](Index n) { return lies_in(openings[o], mesh.points[n]); }))
+      return static_cast<int>(o);
   }
   return -1;
 }

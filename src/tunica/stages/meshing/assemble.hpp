@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tunica/mesh/mesh_data.hpp"
-#include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/stages/meshing/openings.hpp"
 #include "tunica/stages/meshing/tetrahedra.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tunica/stages/meshing/label_domain.hpp"
+#include "tunica/stages/meshing/triangle_surface.hpp"
 
 namespace tunica::stages::meshing {
 

@@ -178,7 +178,7 @@ DissectionModel::Sheet DissectionModel::sheet(const Centreline::Closest& c, doub
   return {rounded_intersection(std::abs(side) - 0.5 * f.thickness, -rim, f.rim_fillet), rim, side, w};
 }
 
-void DissectionModel::join_tubes(const Point& p, Values& v) const {
+void DissectionModel::join_tubes(const Point& p, double beyond, Values& v) const {
   const double fillet = shape_.aorta.branch_fillet;
   double nearest = far;
   for (std::size_t b = 0; b < tubes_.size(); ++b) {
@@ -187,7 +187,7 @@ void DissectionModel::join_tubes(const Point& p, Values& v) const {
     const double along = dot(d, tube.axis);
     const double reach = tube.radius + tube.wall_thickness + fillet;
     const double base = std::min(along, 0.0), squared = dot(d, d) - along * along + base * base;
-    if (along > tube.length || squared > reach * reach) continue;
+    if (along > tube.length + beyond || squared > reach * reach) continue;
     const double lumen = std::sqrt(std::max(0.0, squared)) - tube.radius, outer = lumen - tube.wall_thickness;
     if (lumen < v.lumen && lumen < nearest) {
       nearest = lumen;
@@ -199,14 +199,14 @@ void DissectionModel::join_tubes(const Point& p, Values& v) const {
   }
 }
 
-DissectionModel::Values DissectionModel::at(const Point& p) const {
+DissectionModel::Values DissectionModel::at(const Point& p, double beyond) const {
   const auto c = centreline_.closest(p);
   const double radius = radius_.at(c.s).value;
-  const bool cut = c.beyond > 0 && (c.s == 0 || !shape_.iliacs);
+  const bool past_cut = c.beyond > 0 && (c.s == 0 || !shape_.iliacs), cut = past_cut && c.beyond > beyond;
   Values v{far, far, far, far, far, shape_.aorta.wall_thickness, -1};
   Sheet sheet_values{far, far, far, 0};
   if (!cut) {
-    v.lumen = c.distance - radius;
+    v.lumen = (past_cut ? std::hypot(c.x1, c.x2) : c.distance) - radius;
     // Away from the aorta only branches matter.
     if (v.lumen < 2 * shape_.aorta.branch_fillet + shape_.aorta.wall_thickness) {
       sheet_values = sheet(c, radius);
@@ -219,7 +219,7 @@ DissectionModel::Values DissectionModel::at(const Point& p) const {
   v.flap = sheet_values.flap;
   v.tear = sheet_values.tear;
   v.side = sheet_values.side;
-  join_tubes(p, v);
+  join_tubes(p, beyond, v);
   if (v.flap < far) {
     if (v.flap < std::abs(v.lumen)) v.thickness = shape_.flap.thickness;
     v.lumen = rounded_intersection(v.lumen, -v.flap, shape_.flap.corner_fillet);
@@ -229,7 +229,7 @@ DissectionModel::Values DissectionModel::at(const Point& p) const {
 
 int DissectionModel::label(const Point& p) const {
   const Values v = at(p);
-  return v.outer >= 0 ? outside : v.lumen < 0 ? lumen_label : wall_label;
+  return v.outer >= 0 ? outside_label : v.lumen < 0 ? lumen_label : wall_label;
 }
 
 double DissectionModel::outside_aorta(const Point& p) const {
@@ -247,45 +247,6 @@ DissectionModel::Depths DissectionModel::depths(double s) const {
   const double R = aorta_radius(s), w = weight_.at(s).value, joined = -(R + shape_.flap.thickness);
   const double middle = joined + w * (offset_ + shape_.flap.bow - joined), half = 0.5 * shape_.flap.thickness;
   return {R - middle - half, R + middle - half};
-}
-
-LabelDomain label_domain(const DissectionModel& model, const DissectionSizes& sizes) {
-  LabelDomain domain;
-  domain.label = [&model](const Point& p) { return model.label(p); };
-  domain.box = model.box();
-  const auto surface = [sizes](const DissectionModel::Values& v) {
-    double h = sizes.edge;
-    const double at_tear = sizes.at_tears * sizes.edge;
-    h = std::min(h, at_tear + 0.35 * std::max(0.0, std::abs(v.tear) - 1 * mm));
-    return h;
-  };
-  domain.surface_size = [&model, surface](const Point& p) { return surface(model.at(p)); };
-  domain.surface_distance = [&model, surface](const Point& p) {
-    const auto v = model.at(p);
-    return std::min(0.08 * surface(v), 0.2 * v.thickness);
-  };
-  domain.volume_size = [&model, surface, sizes](const Point& p, int label) {
-    const auto v = model.at(p);
-    const double h = surface(v);
-    if (label != lumen_label) return h;
-    return std::min(sizes.in_lumen * sizes.edge, h + 0.35 * std::max(0.0, -v.lumen - h));
-  };
-  for (const auto& o : model.openings())
-    for (const double radius : {o.lumen_radius, o.outer_radius}) {
-      // Any vector across the axis starts the circle.
-      const Point other = std::abs(o.normal[0]) < 0.7 ? Point{{1, 0, 0}} : Point{{0, 1, 0}};
-      Point a = cross(o.normal, other);
-      a = (1 / norm(a)) * a;
-      const Point b = cross(o.normal, a);
-      constexpr int corners = 360;
-      auto& circle = domain.curves.emplace_back();
-      for (int k = 0; k < corners; ++k) {
-        const double angle = 2 * pi * k / corners;
-        circle.push_back(o.centre + (radius * std::cos(angle)) * a + (radius * std::sin(angle)) * b);
-      }
-      circle.push_back(circle.front());
-    }
-  return domain;
 }
 
 }  // namespace tunica::stages::meshing

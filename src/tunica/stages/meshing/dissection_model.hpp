@@ -5,13 +5,17 @@
 #include <vector>
 
 #include "tunica/stages/meshing/centreline.hpp"
-#include "tunica/stages/meshing/label_domain.hpp"
 #include "tunica/stages/meshing/parametric_dissection.hpp"
+#include "tunica/stages/meshing/tetrahedra.hpp"
 
 namespace tunica::stages::meshing {
 
-/// A planar end of a vessel.
-struct Opening {
+struct Box {
+  Point low{{0, 0, 0}}, high{{0, 0, 0}};  ///< m
+};
+
+/// A planar end of a vessel, round in lumen and wall.
+struct RoundOpening {
   std::string name;
   Point centre, normal;               ///< normal points out of the body
   double lumen_radius, outer_radius;  ///< m
@@ -54,11 +58,12 @@ class DissectionModel {
     double thickness;     ///< of the wall or flap nearby [m]
     int branch;           ///< number of the branch, -1 in the aorta
   };
-  Values at(const Point& p) const;
+  /// Vessels go on straight by `beyond` [m] past their ends.
+  Values at(const Point& p, double beyond = 0) const;
   int label(const Point& p) const;
 
-  Box box() const { return box_; }
-  const std::vector<Opening>& openings() const { return openings_; }  ///< the first one is the inlet
+  Box box() const { return box_; }                                         ///< 3 mm larger than the body
+  const std::vector<RoundOpening>& openings() const { return openings_; }  ///< the first one is the inlet
   double aorta_radius(double s) const { return radius_.at(s).value; }
   const Centreline& centreline() const { return centreline_; }
   /// Distance of `p` from the surface of the aorta without branches [m], of the outer surface.
@@ -82,7 +87,7 @@ class DissectionModel {
     double flap, tear, side, weight;
   };
   Sheet sheet(const Centreline::Closest& c, double radius) const;
-  void join_tubes(const Point& p, Values& v) const;
+  void join_tubes(const Point& p, double beyond, Values& v) const;
   double tear_rim(const TearShape& tear, double s, double m, double stretch) const;
   double share_of_true_lumen(double offset, double bow) const;
   double find_offset() const;
@@ -96,16 +101,8 @@ class DissectionModel {
   double offset_ = 0;  ///< of the flap from the middle, towards the true lumen [m]
   double entry_stretch_ = 1, exit_stretch_ = 1;
   std::vector<Tube> tubes_;
-  std::vector<Opening> openings_;
+  std::vector<RoundOpening> openings_;
   Box box_;
 };
-
-/// The body for the meshing engine, with mesh sizes.
-struct DissectionSizes {
-  double edge = 2.5 * mm;  ///< on the surfaces
-  double at_tears = 0.6;   ///< share of `edge` near the rims of the tears
-  double in_lumen = 1.8;   ///< multiple of `edge` in the middle of wide lumen
-};
-LabelDomain label_domain(const DissectionModel& model, const DissectionSizes& sizes);
 
 }  // namespace tunica::stages::meshing

@@ -37,14 +37,14 @@ std::array<Point, 14> make_directions() {
 class Smoother {
  public:
   /// `enough`: a star whose worst sine is above it is left alone.
-  Smoother(LocalMesh& mesh, const Projection& project, double enough)
-      : mesh_(mesh), project_(project), enough_(enough) {}
+  Smoother(LocalMesh& mesh, const Projection& project, double enough, double deviation)
+      : mesh_(mesh), project_(project), enough_(enough), deviation_(deviation) {}
 
   /// Looks for a better place of the node: a pattern search from where it is, with steps that get smaller.
-  bool smooth(Node n) {
-    if (mesh_.place(n) == Place::curve) return false;
-    const Point start = mesh_.point(n);
+  bool smooth(Node n, bool keep_surface) {
     const bool on_surface = mesh_.place(n) == Place::surface;
+    if (mesh_.place(n) == Place::curve || (on_surface && keep_surface)) return false;
+    const Point start = mesh_.point(n);
     const Point normal = on_surface ? mesh_.normal(n) : Point{{0, 0, 0}};
     const double size = shortest_edge(n);
     double best = mesh_.star_sine(n, start, -1);
@@ -72,11 +72,30 @@ class Smoother {
       }
     }
     if (best <= first + 1e-4) return false;
+    const double allowed = on_surface ? std::max(deviation_, deviation(n)) : 0;
     mesh_.move(n, at);
+    if (on_surface && deviation(n) > allowed) {
+      mesh_.move(n, start);
+      return false;
+    }
     return true;
   }
 
  private:
+  /// Largest distance of the middles of the surface triangles at `n` from the surface over their longest edge.
+  double deviation(Node n) const {
+    const auto [from, to] = mesh_.sides(n);
+    double largest = 0;
+    for (const auto& t : mesh_.faces_at(n)) {
+      const Point &a = mesh_.point(t[0]), &b = mesh_.point(t[1]), &c = mesh_.point(t[2]);
+      const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+      const Point normal = cross(b - a, c - a), middle = (1.0 / 3) * (a + b + c);
+      Point on = middle;
+      if (!project_(on, (1 / norm(normal)) * normal, from, to, longest)) return 1e300;
+      largest = std::max(largest, norm(on - middle) / longest);
+    }
+    return largest;
+  }
   double shortest_edge(Node n) const {
     double least = 1e300;
     for (const Cell c : mesh_.star(n))
@@ -99,7 +118,7 @@ class Smoother {
 
   LocalMesh& mesh_;
   const Projection& project_;
-  double enough_;
+  double enough_, deviation_;
   std::array<Point, 14> directions_ = make_directions();
 };
 
@@ -116,39 +135,13 @@ double worst(const LocalMesh& mesh, const std::vector<Cell>& bad) { return bad.e
 
 }  // namespace
 
-Projection projection(const LabelDomain& domain) {
-  return [&domain](Point& p, const Point& normal, int from, int to, double reach) {
-    Point low = p - reach * normal, high = p + reach * normal;
-    // The surface may be nearer than `reach`, and others beyond it: look close by first.
-    for (const double part : {0.1, 0.35, 1.0}) {
-      low = p - (part * reach) * normal;
-      high = p + (part * reach) * normal;
-      if (domain.label(low) == from && domain.label(high) == to) break;
-      if (part == 1.0) return false;
-    }
-    constexpr int halvings = 12;
-    for (int k = 0; k < halvings; ++k) {
-      const Point middle = 0.5 * (low + high);
-      const int label = domain.label(middle);
-      if (label == from)
-        low = middle;
-      else if (label == to)
-        high = middle;
-      else
-        return false;
-    }
-    p = 0.5 * (low + high);
-    return true;
-  };
-}
-
 Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOptions& options,
                     const std::function<void(const std::string&)>& tell) {
   LocalMesh local(mesh);
   Improvement done;
   const double wanted = std::sin(options.wanted_dihedral * std::numbers::pi / 180);
-  Smoother smoother(local, project, 1.1 * wanted);
-  const ReconnectOptions reconnection{.keep_layers = options.keep_layers};
+  const double free_surface = std::sin(options.free_surface * std::numbers::pi / 180);
+  Smoother smoother(local, project, 1.1 * wanted, options.deviation);
   std::size_t before = 0;
   for (; done.passes < options.most_passes; ++done.passes) {
     const auto bad = worse_than(local, wanted);
@@ -159,7 +152,9 @@ Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOp
     for (const Cell c : bad) {
       if (!local.alive(c) || local.sine(c) >= wanted) continue;
       const auto corners = local.corners(c);
-      for (const Node n : corners) done.moves += smoother.smooth(n);
+      const bool keep_surface = local.sine(c) >= free_surface;
+      const ReconnectOptions reconnection{.keep_layers = options.keep_layers, .keep_surface = keep_surface};
+      for (const Node n : corners) done.moves += smoother.smooth(n, keep_surface);
       if (local.sine(c) >= wanted) continue;
       if (reconnect(local, c, reconnection)) {
         ++done.reconnections;
@@ -169,7 +164,7 @@ Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOp
         continue;
       }
       for (const Node n : corners)
-        if (!local.star(n).empty()) done.moves += smoother.smooth(n);
+        if (!local.star(n).empty()) done.moves += smoother.smooth(n, keep_surface);
     }
   }
   mesh = local.extract();

@@ -8,14 +8,14 @@
 
 namespace tunica::stages::meshing {
 
-/// Moves `p`, which is near the surface between two labels (outside = 0), onto it along `normal` (pointing from
-/// `from` to `to`); false when the surface is further away than `reach` [m] on either side.
+/// Moves `p`, which is near the surface between two labels (outside = 0), onto it; `normal` points from `from` to `to`.
+/// False when there is no such surface within `reach` [m].
 using Projection = std::function<bool(Point& p, const Point& normal, int from, int to, double reach)>;
-/// By bisection of the label function.
-Projection projection(const LabelDomain& domain);
 
 struct ImproveOptions {
   double wanted_dihedral = 15;  ///< elements with a smaller (or larger than 180 - this) angle are worked on [degrees]
+  double free_surface = 10;     ///< surfaces are changed only for elements with a smaller angle [degrees]
+  double deviation = 0.1;       ///< of surface triangles from the surface over their longest edge, where nodes move
   int most_passes = 8;
   bool keep_layers = false;  ///< make no edge from one side of the wall to the other
 };

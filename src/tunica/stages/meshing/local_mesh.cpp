@@ -72,20 +72,28 @@ Tetrahedra LocalMesh::extract() const {
   return mesh;
 }
 
-Point LocalMesh::normal(Node n) const {
-  Point sum{{0, 0, 0}};
+std::vector<std::array<LocalMesh::Node, 3>> LocalMesh::faces_at(Node n) const {
+  std::vector<std::array<Node, 3>> triangles;
   const auto [from, to] = sides_[n];
   for (const Cell c : stars_[n]) {
     if (labels_[c] != from) continue;
+    const auto& k = corners_[c];
     for (int f = 0; f < 4; ++f) {
-      const auto& t = mesh::tetrahedron_faces[f];
-      const auto& k = corners_[c];
       if (k[f] == n) continue;
       const Cell other = across(c, f);
-      if ((other < 0 ? outside : labels_[other]) != to) continue;
-      const Point& a = points_[k[t[0]]];
-      sum = sum + cross(points_[k[t[1]]] - a, points_[k[t[2]]] - a);
+      if ((other < 0 ? outside_label : labels_[other]) != to) continue;
+      const auto& t = mesh::tetrahedron_faces[f];
+      triangles.push_back({k[t[0]], k[t[1]], k[t[2]]});
     }
+  }
+  return triangles;
+}
+
+Point LocalMesh::normal(Node n) const {
+  Point sum{{0, 0, 0}};
+  for (const auto& t : faces_at(n)) {
+    const Point& a = points_[t[0]];
+    sum = sum + cross(points_[t[1]] - a, points_[t[2]] - a);
   }
   const double length = norm(sum);
   return length > 0 ? (1 / length) * sum : sum;
@@ -209,7 +217,7 @@ LocalMesh::Node LocalMesh::split(Node a, Node b) {
   places_.push_back(open && sides[0] != sides[1]   ? Place::curve
                     : open || sides[0] != sides[1] ? Place::surface
                                                    : Place::inner);
-  sides_.push_back(open ? std::array<int, 2>{sides[0], outside} : sides);
+  sides_.push_back(open ? std::array<int, 2>{sides[0], outside_label} : sides);
   std::vector<NewCell> fresh;
   for (const Cell c : old)
     for (const Node gone : {a, b}) {

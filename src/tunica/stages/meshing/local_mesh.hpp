@@ -34,6 +34,8 @@ class LocalMesh {
   Place place(Node n) const { return places_[n]; }
   /// Labels on either side of a surface node; outside = 0 is the second.
   std::array<int, 2> sides(Node n) const { return sides_[n]; }
+  /// Triangles of the surface at a surface node, counter-clockwise seen from the second side.
+  std::vector<std::array<Node, 3>> faces_at(Node n) const;
   /// Unit normal of the surface at a surface node, from the first side to the second.
   Point normal(Node n) const;
 

@@ -2,17 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "tunica/base/error.hpp"
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/mesh/simvascular.hpp"
 #include "tunica/stages/manifest.hpp"
 #include "tunica/stages/meshing/assemble.hpp"
-#include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/stages/meshing/fidelity.hpp"
 #include "tunica/stages/meshing/improve.hpp"
 #include "tunica/stages/meshing/layers.hpp"
 #include "tunica/stages/meshing/mesh_report.hpp"
+#include "tunica/stages/meshing/projection.hpp"
 #include "tunica/stages/meshing/tetrahedralise.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
 
@@ -25,15 +28,18 @@ using config::Schema;
 Schema<Size> size_schema() {
   return Schema<Size>("size", "How fine the mesh is; numbers of tetrahedra are those of the usual dissection.")
       .one_of()
-      .alternative(Schema<Coarse>("coarse", "About 130 000 tetrahedra: the walls are too thin for fewer."))
+      .alternative(Schema<Coarse>("coarse", "About 60 000 tetrahedra."))
       .alternative(Schema<Medium>("medium", "About 280 000."))
       .alternative(Schema<Full>("full", "About 1.2 million."))
       .quantity("edge", config::emplace<double>, config::dimension::length, config::range(0.2 * mm, 10 * mm),
                 "Edge length on the surfaces of lumen and wall");
 }
 
-Schema<Geometry> geometry_schema() {
-  return Schema<Geometry>("geometry", "What is meshed.").one_of().alternative(ParametricDissection::schema());
+/// A coarse mesh saves elements where the lumen is wide.
+FillSettings fill_settings(double edge) {
+  FillSettings settings;
+  settings.in_lumen = std::clamp(1 + 0.25 * (edge / mm - 2), 1.0, 2.5);
+  return settings;
 }
 
 /// Names and times the phases of the work.
@@ -64,10 +70,23 @@ class Phases {
   Clock::time_point first_ = Clock::now(), started_;
 };
 
-std::vector<Cap> make_caps(const SurfaceFaces& faces, const std::vector<Opening>& openings) {
+/// The openings with the inlet first.
+std::vector<Opening> with_inlet_first(std::vector<Opening> openings, const std::string& inlet) {
+  if (inlet.empty()) return openings;
+  const auto found = std::find_if(openings.begin(), openings.end(), [&](const Opening& o) { return o.name == inlet; });
+  if (found == openings.end())
+    throw InputError("inlet", fmt::format("no opening is called '{}'", inlet), "take a name of the table of openings");
+  std::rotate(openings.begin(), found, found + 1);
+  return openings;
+}
+
+std::vector<Cap> make_caps(const SurfaceFaces& faces, const std::vector<Opening>& openings,
+                           const std::vector<std::string>& aorta_ends) {
   std::vector<Cap> caps;
-  for (std::size_t o = 0; o < openings.size(); ++o)
-    caps.push_back({faces.caps[o], openings[o].name != "inlet" && openings[o].name != "abdominal_aorta"});
+  for (std::size_t o = 0; o < openings.size(); ++o) {
+    const bool listed = std::find(aorta_ends.begin(), aorta_ends.end(), openings[o].name) != aorta_ends.end();
+    caps.push_back({faces.caps[o], o > 0 && !listed});
+  }
   return caps;
 }
 
@@ -98,10 +117,19 @@ std::string case_section(const std::vector<std::string>& wall_regions) {
 }  // namespace
 
 double edge_length(const Size& size) {
-  if (std::holds_alternative<Coarse>(size)) return 5 * mm;
-  if (std::holds_alternative<Medium>(size)) return 1.85 * mm;
-  if (std::holds_alternative<Full>(size)) return 1.0 * mm;
+  if (std::holds_alternative<Coarse>(size)) return 7 * mm;
+  if (std::holds_alternative<Medium>(size)) return 3.2 * mm;
+  if (std::holds_alternative<Full>(size)) return 2.0 * mm;
   return std::get<double>(size);
+}
+
+SizeSettings size_settings(double edge) {
+  SizeSettings settings;
+  settings.largest = edge;
+  settings.per_radius = std::min(0.8, 0.17 * edge / mm);
+  settings.per_thickness = std::min(2.0, 0.35 * edge / mm);
+  settings.smallest = std::min(0.6 * mm, 0.2 * edge);
+  return settings;
 }
 
 Schema<MeshCase> MeshCase::schema() {
@@ -111,9 +139,6 @@ Schema<MeshCase> MeshCase::schema() {
       .section("geometry", &MeshCase::geometry, geometry_schema(), "What is meshed")
       .section("size", &MeshCase::size, size_schema(), "How fine")
       .by_default("medium")
-      .number("at_tears", &MeshCase::at_tears, config::range(0.2, 1),
-              "Edge length at the rims of the tears, as a share of that elsewhere")
-      .by_default()
       .integer("elements_through_wall", &MeshCase::elements_through_wall, config::range(1, 4),
                "Elements that wall and flap are thick, at least")
       .by_default()
@@ -126,31 +151,41 @@ config::Parsed<MeshCase> read_mesh_case(const std::filesystem::path& file) {
 }
 
 MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
-  const DissectionModel model(std::get<ParametricDissection>(mesh_case.geometry));
-  const DissectionSizes sizes{.edge = edge_length(mesh_case.size), .at_tears = mesh_case.at_tears};
   Phases phases(say);
-  const auto follow = [&](const std::string& phase, const std::string& state) {
-    if (phase != phases.phase())
-      phases.begin(phase);
-    else
-      phases.tell(state);
-  };
-  const LabelDomain domain = label_domain(model, sizes);
-  Tetrahedra mesh = tetrahedralise(domain, follow);
-  phases.begin("shapes");
   const auto tell = [&](const std::string& state) { phases.tell(state); };
-  improve(mesh, projection(domain), {}, tell);
+  ComplexOptions options;
+  const double edge = edge_length(mesh_case.size);
+  options.sizes = size_settings(edge);
+  options.log = tell;
+  options.spots = mesh_case.output / "problems.vtp";
+  phases.begin("surfaces");
+  const auto geometry = surfaces_of(mesh_case.geometry, options);
+  options.lumen_parts = geometry.lumen_parts;
+  phases.begin("remeshing");
+  const auto prepared = patient_complex(geometry.surfaces, options);
+  const auto openings = with_inlet_first(prepared.openings, geometry.inlet);
+
+  phases.begin("tetrahedra");
+  Tetrahedra mesh = tetrahedralise(prepared.complex, prepared.sizes, fill_settings(edge));
+  tell(fmt::format("{} elements", mesh.elements.size()));
+  phases.begin("shapes");
+  const auto project = projection(prepared);
+  improve(mesh, project, {}, tell);
   if (mesh_case.elements_through_wall > 1) {
     phases.begin("layers");
-    tell(fmt::format("{} nodes added", double_layers(mesh, find_layers(mesh, model.openings()).bridges)));
-    improve(mesh, projection(domain), {.keep_layers = true}, tell);
+    tell(fmt::format("{} nodes added", double_layers(mesh, find_layers(mesh, openings).bridges)));
+    improve(mesh, project, {.keep_layers = true}, tell);
   }
+
   phases.begin("regions and faces");
-  const auto faces = sort_surface(mesh, model.openings());
-  const auto regions = find_wall_regions(mesh, make_caps(faces, model.openings()), {});
-  auto data = assemble(mesh, model.openings(), faces, regions);
+  const auto faces = sort_surface(mesh, openings);
+  const auto regions = find_wall_regions(mesh, make_caps(faces, openings, geometry.aorta_ends), {});
+  auto data = assemble(mesh, openings, faces, regions);
+  phases.begin("report");
+  const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);
+  const auto layers = find_layers(mesh, openings);
   phases.end();
-  const auto report = mesh_report({data, find_layers(mesh, model.openings()), phases.seconds, peak_memory()});
+  const auto report = mesh_report({data, layers, fidelity, phases.seconds, peak_memory()});
   return {std::move(data), report.dump(2) + "\n", report_text(report)};
 }
 

@@ -8,23 +8,22 @@
 
 #include "tunica/config/schema.hpp"
 #include "tunica/mesh/mesh_data.hpp"
-#include "tunica/stages/meshing/parametric_dissection.hpp"
+#include "tunica/stages/meshing/geometry.hpp"
 
 namespace tunica::stages::meshing {
-
-using Geometry = std::variant<ParametricDissection>;
 
 struct Coarse {};
 struct Medium {};
 struct Full {};
-using Size = std::variant<Coarse, Medium, Full, double>;  ///< a number: edge length on the surfaces [m]
+using Size = std::variant<Coarse, Medium, Full, double>;  ///< a number: largest edge length [m]
 double edge_length(const Size& size);                     ///< m
+/// What follows from the largest edge: a coarse mesh is also coarser than the wall is thick.
+SizeSettings size_settings(double edge);
 
 struct MeshCase {
   std::string title;
   Geometry geometry;
   Size size = Medium{};
-  double at_tears = 0.6;  ///< edge length at the rims of the tears, as a share of that elsewhere
   int elements_through_wall = 1;
   std::filesystem::path output;
 

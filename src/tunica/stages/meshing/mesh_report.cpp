@@ -66,6 +66,20 @@ std::vector<Triangle> boundary(const mesh::MeshData& data, mesh::RegionKind kind
 
 nlohmann::json to_json(const Topology& t) { return {{"parts", t.parts}, {"genus", t.genus}, {"manifold", t.manifold}}; }
 
+/// Volumes and distances against the surfaces given.
+nlohmann::json to_json(const Fidelity& fidelity, const mesh::MeshData& data) {
+  double lumen = 0, wall = 0;
+  for (const auto& region : data.regions)
+    (region.kind == mesh::RegionKind::lumen ? lumen : wall) += volume(data, region);
+  const auto percent = [](double is, double was) { return 100 * (is / was - 1); };
+  return {{"lumen_volume_percent", percent(lumen, fidelity.lumen_volume)},
+          {"wall_volume_percent", percent(wall, fidelity.wall_volume)},
+          {"lumen_distance_mm", 1e3 * fidelity.lumen.largest_distance},
+          {"lumen_distance_per_edge", fidelity.lumen.largest_per_edge},
+          {"outer_distance_mm", 1e3 * fidelity.outer.largest_distance},
+          {"outer_distance_per_edge", fidelity.outer.largest_per_edge}};
+}
+
 }  // namespace
 
 Shapes shapes(const mesh::MeshData& data, Index first_element, Index end_element) {
@@ -182,6 +196,7 @@ nlohmann::json mesh_report(const ReportInput& input) {
   const auto& layers = input.layers;
   report["wall_one_element_thick_percent"] =
       100.0 * static_cast<double>(layers.bridged_nodes) / static_cast<double>(std::max<Index>(1, layers.surface_nodes));
+  report["fidelity"] = to_json(input.fidelity, data);
   double total = 0;
   for (const auto& [phase, seconds] : input.seconds) {
     report["seconds"][phase] = seconds;
@@ -213,6 +228,13 @@ std::string report_text(const nlohmann::json& r) {
   const auto& lumen = r["lumen_boundary"];
   text += fmt::format("\nlumen boundary: {} part(s), genus {}, {}\n", lumen["parts"].get<Index>(),
                       lumen["genus"].get<Index>(), lumen["manifold"].get<bool>() ? "manifold" : "not manifold");
+  const auto& f = r["fidelity"];
+  text += fmt::format(
+      "against the surfaces given: lumen volume {:+.2f} %, wall volume {:+.2f} %; distance of the lumen surface up to "
+      "{:.2f} mm or {:.2f} edge lengths, of the outer one {:.2f} mm or {:.2f}\n",
+      f["lumen_volume_percent"].get<double>(), f["wall_volume_percent"].get<double>(),
+      f["lumen_distance_mm"].get<double>(), f["lumen_distance_per_edge"].get<double>(),
+      f["outer_distance_mm"].get<double>(), f["outer_distance_per_edge"].get<double>());
   text += fmt::format("wall only one element thick at {:.1f} % of its surface nodes\n",
                       r["wall_one_element_thick_percent"].get<double>());
   for (const auto& [phase, seconds] : r["seconds"].items())

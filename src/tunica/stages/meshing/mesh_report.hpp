@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/meshing/fidelity.hpp"
 #include "tunica/stages/meshing/tetrahedra.hpp"
 
 namespace tunica::stages::meshing {
@@ -39,6 +40,7 @@ WallLayers wall_layers(const Tetrahedra& mesh, const std::vector<std::array<Inde
 struct ReportInput {
   const mesh::MeshData& data;
   const WallLayers& layers;
+  const Fidelity& fidelity;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase
   double peak_memory = 0;                               ///< byte
 };

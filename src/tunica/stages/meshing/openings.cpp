@@ -132,6 +132,11 @@ void give_names(std::vector<Opening>& openings, const std::vector<NamedPlace>& n
 
 }  // namespace
 
+bool lies_in(const Opening& opening, const Point& x) {
+  const auto d = x - opening.centre;
+  return std::abs(dot(d, opening.normal)) < 1e-3 * opening.reach && norm(d) < 1.1 * opening.reach;
+}
+
 std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, double metres_per_unit) {
   const std::string remedy = "write a table with the columns name, centre_x, centre_y, centre_z";
   std::ifstream file(path);
@@ -188,7 +193,7 @@ std::vector<Opening> find_openings(const TriangleSurface& lumen, const TriangleS
   for (const auto& loop : boundary_loops(lumen)) {
     const auto rim = shape(lumen, loop);
     const double size = norm(rim.area);
-    openings.push_back({"", rim.centre, (1 / size) * rim.area, size, loop, {}, 0});
+    openings.push_back({"", rim.centre, (1 / size) * rim.area, size, 0, loop, {}, 0});
   }
   if (openings.empty())
     throw InputError("lumen surface", "has no openings", "cut it open at the inlet and the outlets");
@@ -198,6 +203,8 @@ std::vector<Opening> find_openings(const TriangleSurface& lumen, const TriangleS
     if (outer)
       opening.out_of_plane =
           std::max(opening.out_of_plane, largest_distance(*outer, opening.wall, opening.centre, opening.normal));
+    for (const auto p : opening.lumen) opening.reach = std::max(opening.reach, norm(lumen.points[p] - opening.centre));
+    for (const auto p : opening.wall) opening.reach = std::max(opening.reach, norm(outer->points[p] - opening.centre));
     if (const double radius = std::sqrt(opening.area / M_PI); opening.out_of_plane > planar_within * radius)
       problems.push_back(
           {"opening at " + in_mm(opening.centre),

@@ -19,10 +19,15 @@ struct Opening {
   Point centre;         ///< of the lumen rim [m]
   Vec3<double> normal;  ///< unit, out of the vessel
   double area = 0;      ///< of the lumen [m^2]
+  double reach = 0;     ///< largest distance of a rim point, of lumen or wall, from the centre [m]
   Loop lumen;           ///< points of the lumen surface
   Loop wall;            ///< points of the outer surface; empty if there is none
   double out_of_plane;  ///< largest distance of a rim point from the plane [m]
 };
+
+/// Does a node of a mesh lie in the plane of the opening, in lumen or wall? Remeshed rims reach out a little, to keep
+/// the area.
+bool lies_in(const Opening& opening, const Point& x);
 
 /// Reads names and centres from a CSV file with the columns name, centre_x, centre_y, centre_z. InputError for a
 /// missing file or column, a name that is there twice, or a value that is no number.

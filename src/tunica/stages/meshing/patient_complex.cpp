@@ -164,7 +164,11 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
   auto complex = close_at_openings(sheets[0].mesh.surface, outer ? &sheets[1].mesh.surface : nullptr, openings);
   verify(complex);
   log_complex(complex, options.log);
-  return {std::move(complex), size_field(sheets, options.sizes), std::move(lumen), std::move(thickness), openings};
+  auto sizes = size_field(sheets, options.sizes);
+  std::optional<TriangleTree> outer_tree;
+  if (outer) outer_tree = std::move(sheets[1].original.tree);
+  return {std::move(complex),    std::move(sizes),     std::move(sheets[0].original.tree),
+          std::move(outer_tree), std::move(thickness), openings};
 }
 
 PatientSurfaces with_grown_wall(const TriangleSurface& lumen, const std::vector<NamedPlace>& names,

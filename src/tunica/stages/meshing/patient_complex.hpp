@@ -33,10 +33,11 @@ struct ComplexOptions {
 
 struct PreparedSurfaces {
   SurfaceComplex complex;
-  SizeField sizes;                ///< edge length at any point, for the tetrahedra
-  TriangleSurface lumen;          ///< the mended and flattened lumen surface
-  Thickness thickness;            ///< of wall and flap, at the points of `lumen`
-  std::vector<Opening> openings;  ///< their loops refer to the mended surfaces
+  SizeField sizes;                    ///< edge length at any point, for the tetrahedra
+  TriangleTree lumen;                 ///< the mended and flattened lumen surface
+  std::optional<TriangleTree> outer;  ///< the same of the outer one
+  Thickness thickness;                ///< of wall and flap, at the points of `lumen`
+  std::vector<Opening> openings;      ///< their loops refer to `lumen` and `outer`
 };
 
 /// Mends both surfaces, flattens their rims, remeshes them and closes them with plane caps and rings. Patches:

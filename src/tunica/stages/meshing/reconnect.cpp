@@ -96,7 +96,7 @@ bool may_turn(const LocalMesh& mesh, Node a, Node b, Node p, Node q, bool one_be
   const auto area = [&](Node x, Node y, Node z) {
     return cross(mesh.point(y) - mesh.point(x), mesh.point(z) - mesh.point(x));
   };
-  constexpr double flat = 0.94;  // cosine of 20 degrees
+  constexpr double flat = 0.978;  // cosine of 12 degrees
   const auto alike = [](const Point& x, const Point& y) { return dot(x, y) > flat * norm(x) * norm(y); };
   const Point old_1 = area(a, b, p), old_2 = area(b, a, q), new_1 = area(p, q, b), new_2 = area(q, p, a);
   // A flat element between may also be a fold of the surface, whose two sides lie on each other and cancel.
@@ -180,7 +180,7 @@ bool makes_bridge(const LocalMesh& mesh, const Change& change) {
 
 bool worth_it(const LocalMesh& mesh, const Change& change, const ReconnectOptions& options) {
   return change.sine > 0 && change.sine > least_gain * worst_of(mesh, change.old) &&
-         !(options.keep_layers && makes_bridge(mesh, change));
+         !(options.keep_surface && change.on_surface[0] >= 0) && !(options.keep_layers && makes_bridge(mesh, change));
 }
 
 /// The node `gone` moves into `kept`.

@@ -6,7 +6,8 @@
 namespace tunica::stages::meshing {
 
 struct ReconnectOptions {
-  bool keep_layers = false;  ///< make no edge from one side of the wall to the other
+  bool keep_layers = false;   ///< make no edge from one side of the wall to the other
+  bool keep_surface = false;  ///< leave the edges of surfaces as they are
 };
 
 /// Removes one of the element's edges, or replaces one of its faces by an edge, whichever raises the worst sine of the

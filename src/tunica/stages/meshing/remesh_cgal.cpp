@@ -357,6 +357,17 @@ class Remesher {
     return at ? at.place - middle : Vec3<double>{{0, 0, 0}};
   }
 
+  /// Mean vector from an edge of the rim to the original, by Simpson's rule.
+  Vec3<double> rim_deviation(Edge e, const Vec3<double>& middle) const {
+    Vec3<double> sum = 4.0 * middle;
+    for (const int end : {0, 1}) {
+      const auto v = mesh_.vertex(e, end);
+      if (const auto at = project(mesh_.point(v), normal(v), on_line(e), wanted(e)))
+        sum = sum + (at.place - mesh_.point(v));
+    }
+    return (1.0 / 6) * sum;
+  }
+
   /// Edge midpoints integrate a quadratic deviation exactly, so its mean over a triangle is theirs.
   void fit() {
     if (options_.keep_boundary) return;
@@ -368,17 +379,16 @@ class Remesher {
       double sum = 0, weights = 0;
       Vec3<double> rim_sum{{0, 0, 0}};
       for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
-        if (mesh_.is_border(mesh_.edge(h))) rim_sum = rim_sum + 0.5 * gap[mesh_.edge(h)];
+        if (mesh_.is_border(mesh_.edge(h))) rim_sum = rim_sum + 0.5 * rim_deviation(mesh_.edge(h), gap[mesh_.edge(h)]);
         if (mesh_.is_border(h)) continue;
         const double weight = norm(area_of(mesh_.face(h))) / 3;
         for (const auto side : mesh_.halfedges_around_face(h)) sum += weight * dot(gap[mesh_.edge(side)], n);
         weights += 3 * weight;
       }
-      // Of a parabola over an edge the mean is two thirds of the sagitta.
       const int count = lines_at(v);
       if (is_corner(count) || (count > 0 && !mesh_.is_border(v))) continue;
       if (count > 0)
-        moves.emplace_back(v, mesh_.point(v) + (2.0 / 3) * rim_sum);
+        moves.emplace_back(v, mesh_.point(v) + rim_sum);
       else if (weights > 0)
         moves.emplace_back(v, mesh_.point(v) + (sum / weights) * n);
     }

@@ -49,7 +49,7 @@ std::vector<LabelledTriangle> surface_triangles(const Tetrahedra& mesh) {
       if (mesh.labels[other] != label)
         triangles.push_back({face_nodes(mesh, a.element, a.face), a.element, other, label, mesh.labels[other]});
     } else {
-      triangles.push_back({face_nodes(mesh, a.element, a.face), a.element, -1, label, outside});
+      triangles.push_back({face_nodes(mesh, a.element, a.face), a.element, -1, label, outside_label});
     }
   }
   return triangles;

@@ -5,26 +5,29 @@
 #include <cstdint>
 #include <vector>
 
-#include "tunica/stages/meshing/label_domain.hpp"
+#include "tunica/stages/meshing/triangle_surface.hpp"
 
 namespace tunica::stages::meshing {
 
 using Index = std::int64_t;
 
+/// What a point or element belongs to.
+inline constexpr int outside_label = 0, lumen_label = 1, wall_label = 2;
+
 struct Tetrahedra {
-  std::vector<Point> points;
+  std::vector<Point> points;                   ///< m
   std::vector<std::array<Index, 4>> elements;  ///< positive orientation; neighbours share nodes across labels
   std::vector<int> labels;                     ///< of each element, > 0
-  std::vector<bool> on_curve;                  ///< nodes on the curves of the domain
+  std::vector<bool> on_curve;                  ///< nodes on lines where more than two labels meet, which stay in place
 };
 
-/// Nodes of a face in the order of mesh::tetrahedron_faces, counter-clockwise from outside.
+/// Nodes of a face in the order of mesh::tetrahedron_faces, counter-clockwise from outside_label.
 std::array<Index, 3> face_nodes(const Tetrahedra& mesh, Index element, int face);
 
-/// Triangles between two labels, or a label and the outside (0).
+/// Triangles between two labels, or a label and the outside_label (0).
 struct LabelledTriangle {
-  std::array<Index, 3> nodes;  ///< counter-clockwise seen from outside `element`
-  Index element, neighbour;    ///< of the smaller and the larger label; outside is a neighbour of -1
+  std::array<Index, 3> nodes;  ///< counter-clockwise seen from outside_label `element`
+  Index element, neighbour;    ///< of the smaller and the larger label; outside_label is a neighbour of -1
   int label, neighbour_label;  ///< label < neighbour_label, or neighbour_label = 0
 };
 std::vector<LabelledTriangle> surface_triangles(const Tetrahedra& mesh);

@@ -1,21 +1,8 @@
-// The only file with CGAL's Mesh_3: it takes a minute to compile and needs its own floating-point flags. A second kind
-// of domain (surfaces instead of labels) is another argument of `refine`.
 #include "tunica/stages/meshing/tetrahedralise.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Labeled_mesh_domain_3.h>
-#include <CGAL/Mesh_3/Mesher_3.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_domain_with_polyline_features_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/make_mesh_3.h>
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <unordered_map>
+#define TETLIBRARY
+#include <tetgen.h>
 
 #include "tunica/base/error.hpp"
 
@@ -23,216 +10,139 @@ namespace tunica::stages::meshing {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using LabelledDomain = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Kernel>>;
+constexpr double to_tetgen = 1e3;  // its tolerances are made for numbers near one: millimetres
 
-Point point(const Kernel::Point_3& p) { return {{p.x(), p.y(), p.z()}}; }
-Kernel::Point_3 point(const Point& p) { return {p[0], p[1], p[2]}; }
+static_assert(static_cast<int>(Label::lumen) == lumen_label && static_cast<int>(Label::wall) == wall_label);
 
-LabelledDomain make_domain(const LabelDomain& domain) {
-  const auto& [low, high] = domain.box;
-  const double diagonal = norm(high - low);
-  // Surface points are found by bisection; their error must be small against the thinnest wall, not against the body.
-  const double error = 2e-6 / diagonal;
-  const std::function<int(const Kernel::Point_3&)> label = [&domain](const Kernel::Point_3& p) {
-    return domain.label(point(p));
-  };
-  const Kernel::Iso_cuboid_3 box(low[0], low[1], low[2], high[0], high[1], high[2]);
-  LabelledDomain result(label, box, CGAL::parameters::relative_error_bound = error);
-  std::vector<std::vector<Kernel::Point_3>> curves;
-  for (const auto& curve : domain.curves) {
-    auto& added = curves.emplace_back();
-    for (const auto& p : curve) added.push_back(point(p));
+bool bounds(const Patch& patch, Label label) { return patch.negative == label || patch.positive == label; }
+
+/// TetGen frees what hangs from the facets with delete[].
+void add_facet(tetgenio::facet& facet, const std::array<int, 3>& corners) {
+  tetgenio::init(&facet);
+  facet.numberofpolygons = 1;
+  facet.polygonlist = new tetgenio::polygon[1];
+  tetgenio::polygon& polygon = facet.polygonlist[0];
+  polygon.numberofvertices = 3;
+  polygon.vertexlist = new int[3];
+  std::copy(corners.begin(), corners.end(), polygon.vertexlist);
+}
+
+/// The part of the complex around one label, and the number of each of its points in the complex.
+struct Hull {
+  tetgenio input;
+  std::vector<std::int64_t> points;
+};
+
+void fill_in(Hull& hull, const SurfaceComplex& complex, Label label, const std::vector<double>& sizes, double factor) {
+  std::vector<int> number(complex.points.size(), -1);
+  std::vector<std::array<int, 3>> facets;
+  std::vector<int> markers;
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
+    if (!bounds(complex.patches[complex.patch_of[t]], label)) continue;
+    auto& facet = facets.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto p = complex.triangles[t][k];
+      if (number[p] < 0) {
+        number[p] = static_cast<int>(hull.points.size());
+        hull.points.push_back(p);
+      }
+      facet[k] = number[p];
+    }
+    markers.push_back(complex.patch_of[t] + 1);
   }
-  result.add_features(curves.begin(), curves.end());
+  tetgenio& in = hull.input;
+  in.numberofpoints = static_cast<int>(hull.points.size());
+  in.pointlist = new double[3 * hull.points.size()];
+  in.numberofpointmtrs = 1;
+  in.pointmtrlist = new double[hull.points.size()];
+  for (std::size_t i = 0; i < hull.points.size(); ++i) {
+    for (int d = 0; d < 3; ++d) in.pointlist[3 * i + d] = to_tetgen * complex.points[hull.points[i]][d];
+    in.pointmtrlist[i] = to_tetgen * factor * sizes[hull.points[i]];
+  }
+  in.numberoffacets = static_cast<int>(facets.size());
+  in.facetlist = new tetgenio::facet[facets.size()];
+  in.facetmarkerlist = new int[facets.size()];
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    add_facet(in.facetlist[f], facets[f]);
+    in.facetmarkerlist[f] = markers[f];
+  }
+}
+
+const char* reason(int code) {
+  switch (code) {
+    case 1:
+      return "out of memory";
+    case 3:
+      return "two of the given triangles cross";
+    case 4:
+      return "a given edge or angle is too small";
+    case 5:
+      return "two given triangles lie nearly on each other";
+    default:
+      return "an internal error";
+  }
+}
+
+/// Adds the tetrahedra inside the hull of a label to `mesh`, whose first points are those of the complex.
+void fill(const SurfaceComplex& complex, Label label, const std::vector<double>& sizes, double factor,
+          Tetrahedra& mesh) {
+  Hull hull;
+  fill_in(hull, complex, label, sizes, factor);
+  tetgenio output;
+  // p: a closed complex; Y: its triangles stay whole; A: no merging; q: ratio and angle; m: sizes; Q: silent.
+  char switches[] = "pYQq1.4/10m";
+  const char* name = label == Label::lumen ? "lumen" : "wall";
+  try {
+    tetrahedralize(switches, &hull.input, &output);
+  } catch (int code) {
+    throw SolverError(fmt::format("meshing: TetGen cannot fill the {}: {}; try another size", name, reason(code)));
+  }
+  if (output.numberoftetrahedra == 0)
+    throw SolverError(fmt::format("meshing: TetGen put nothing into the {}: its surfaces are not closed", name));
+
+  std::vector<Index> number(hull.points.begin(), hull.points.end());
+  for (int p = output.firstnumber + std::ssize(hull.points); p < output.numberofpoints; ++p) {
+    number.push_back(std::ssize(mesh.points));
+    const double* x = output.pointlist + 3 * static_cast<std::ptrdiff_t>(p);
+    mesh.points.push_back({{x[0] / to_tetgen, x[1] / to_tetgen, x[2] / to_tetgen}});
+  }
+  for (int e = 0; e < output.numberoftetrahedra; ++e) {
+    const int* corners = output.tetrahedronlist + output.numberofcorners * static_cast<std::ptrdiff_t>(e);
+    auto& element = mesh.elements.emplace_back();
+    for (int k = 0; k < 4; ++k) element[k] = number[corners[k]];
+    const Point &a = mesh.points[element[0]], &b = mesh.points[element[1]], &c = mesh.points[element[2]];
+    if (dot(cross(b - a, c - a), mesh.points[element[3]] - a) < 0) std::swap(element[2], element[3]);
+    mesh.labels.push_back(static_cast<int>(label));
+  }
+}
+
+/// Points where patches meet.
+std::vector<bool> on_rims(const SurfaceComplex& complex) {
+  std::vector<bool> result(complex.points.size(), false);
+  std::vector<std::int32_t> first(complex.points.size(), -1);
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t)
+    for (const auto p : complex.triangles[t]) {
+      if (first[p] >= 0 && first[p] != complex.patch_of[t]) result[p] = true;
+      first[p] = complex.patch_of[t];
+    }
   return result;
-}
-
-/// Sizing fields as CGAL asks for them; `dimension` 3 is inside, 2 on a surface, 1 on a curve.
-template <class Domain>
-struct SurfaceSize {
-  using FT = double;
-  const LabelDomain& domain;
-  FT operator()(const Kernel::Point_3& p, int, const typename Domain::Index&) const {
-    return domain.surface_size(point(p));
-  }
-};
-template <class Domain>
-struct SurfaceDistance {
-  using FT = double;
-  const LabelDomain& domain;
-  FT operator()(const Kernel::Point_3& p, int, const typename Domain::Index&) const {
-    return domain.surface_distance(point(p));
-  }
-};
-template <class Domain>
-struct VolumeSize {
-  using FT = double;
-  const LabelDomain& domain;
-  FT operator()(const Kernel::Point_3& p, int dimension, const typename Domain::Index& index) const {
-    if (dimension < 3) return domain.surface_size(point(p));
-    return domain.volume_size(point(p), boost::get<typename Domain::Subdomain_index>(index));
-  }
-};
-
-struct Key {
-  std::int64_t i, j, k;
-  bool operator==(const Key&) const = default;
-};
-struct KeyHash {
-  std::size_t operator()(const Key& c) const {
-    return static_cast<std::size_t>((c.i * 73856093) ^ (c.j * 19349663) ^ (c.k * 83492791));
-  }
-};
-
-/// Points that keep their distance: a hash grid with one cell for each smallest distance.
-class Sparse {
- public:
-  explicit Sparse(double cell) : cell_(cell) {}
-  bool add(const Point& p, double distance) {
-    const auto reach = static_cast<std::int64_t>(std::ceil(distance / cell_));
-    const Key c = key(p);
-    for (auto i = c.i - reach; i <= c.i + reach; ++i)
-      for (auto j = c.j - reach; j <= c.j + reach; ++j)
-        for (auto k = c.k - reach; k <= c.k + reach; ++k)
-          if (const auto found = cells_.find({i, j, k}); found != cells_.end())
-            for (const auto& q : found->second)
-              if (norm(p - q) < distance) return false;
-    cells_[c].push_back(p);
-    return true;
-  }
-
- private:
-  Key key(const Point& p) const {
-    const auto at = [&](int i) { return static_cast<std::int64_t>(std::floor(p[i] / cell_)); };
-    return {at(0), at(1), at(2)};
-  }
-  double cell_;
-  std::unordered_map<Key, std::vector<Point>, KeyHash> cells_;
-};
-
-Point bisect(const LabelDomain& domain, Point a, Point b, int label_a) {
-  for (int k = 0; k < 20; ++k) {
-    const Point middle = 0.5 * (a + b);
-    (domain.label(middle) == label_a ? a : b) = middle;
-  }
-  return 0.5 * (a + b);
-}
-
-/// Points on every surface, found by walking a lattice along one axis and bisecting where the label changes. Thin
-/// sheets are then known to the refinement before it starts. No two are closer than `spacing` local sizes, and none is
-/// near a curve, whose protecting balls must stay empty.
-std::vector<Point> surface_samples(const LabelDomain& domain, double spacing) {
-  constexpr double line_spacing = 2e-3, step = 5e-4;  // m: lines between samples, and steps along a line
-  const Point extent = domain.box.high - domain.box.low;
-  const auto count = [&](int i, double h) { return static_cast<int>(std::ceil(extent[i] / h)); };
-  Sparse sparse(1e-3);
-  for (const auto& curve : domain.curves)
-    for (const auto& p : curve) sparse.add(p, 1e-5);
-  std::vector<Point> samples;
-  for (int i = 0; i <= count(0, line_spacing); ++i)
-    for (int k = 0; k <= count(2, line_spacing); ++k) {
-      Point a = domain.box.low + Point{{i * line_spacing, 0, k * line_spacing}};
-      int label = domain.label(a);
-      for (int j = 1; j <= count(1, step); ++j) {
-        const Point b = domain.box.low + Point{{i * line_spacing, j * step, k * line_spacing}};
-        const int next = domain.label(b);
-        if (next != label) {
-          const Point p = bisect(domain, a, b, label);
-          if (sparse.add(p, spacing * domain.surface_size(p))) samples.push_back(p);
-        }
-        a = b;
-        label = next;
-      }
-    }
-  return samples;
-}
-
-template <class Complex, class Domain>
-void insert_samples(Complex& complex, const Domain& cgal_domain, const LabelDomain& domain) {
-  const auto samples = surface_samples(domain, 2.0);
-  if (samples.empty()) throw SolverError("meshing: the label is the same everywhere, there is no surface");
-  auto& triangulation = complex.triangulation();
-  using Weighted = typename Complex::Triangulation::Weighted_point;
-  for (const auto& p : samples) {
-    const auto vertex = triangulation.insert(Weighted(point(p), 0.0));
-    if (vertex == typename Complex::Vertex_handle()) continue;
-    complex.set_dimension(vertex, 2);
-    // The patch is made exact when the facets around the vertex are; any patch of the right dimension will do here.
-    complex.set_index(vertex, cgal_domain.index_from_surface_patch_index({outside, lumen_label}));
-  }
-}
-
-template <class Complex>
-Tetrahedra extract(const Complex& complex) {
-  Tetrahedra mesh;
-  std::unordered_map<const void*, Index> number;
-  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
-    std::array<Index, 4> nodes;
-    for (int a = 0; a < 4; ++a) {
-      const auto vertex = cell->vertex(a);
-      const auto [entry, is_new] = number.emplace(&*vertex, std::ssize(mesh.points));
-      if (is_new) {
-        const auto& p = vertex->point();
-        mesh.points.push_back({{p.x(), p.y(), p.z()}});
-        mesh.on_curve.push_back(complex.in_dimension(vertex) <= 1);
-      }
-      nodes[a] = entry->second;
-    }
-    mesh.elements.push_back(nodes);
-    mesh.labels.push_back(static_cast<int>(complex.subdomain_index(cell)));
-  }
-  return mesh;
-}
-
-/// Calls `show` at most twice a second.
-class Pace {
- public:
-  template <class Show>
-  void operator()(const Show& show) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::milliseconds(500)) return;
-    last_ = now;
-    show();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_{};
-};
-
-template <class Domain>
-Tetrahedra refine(const Domain& cgal_domain, const LabelDomain& domain, const MeshingProgress& progress) {
-  using Triangulation = typename CGAL::Mesh_triangulation_3<Domain>::type;
-  using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, typename Domain::Corner_index,
-                                                          typename Domain::Curve_index>;
-  using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
-  namespace p = CGAL::parameters;
-  const SurfaceSize<Domain> surface{domain};
-  const Criteria criteria(p::edge_size = surface, p::facet_angle = 25.0, p::facet_size = surface,
-                          p::facet_distance = SurfaceDistance<Domain>{domain}, p::cell_radius_edge_ratio = 2.0,
-                          p::cell_size = VolumeSize<Domain>{domain});
-  CGAL::get_default_random() = CGAL::Random(0);
-  Complex complex;
-  progress("curves and first points", "");
-  CGAL::Mesh_3::internal::init_c3t3_with_features(complex, cgal_domain, criteria);
-  insert_samples(complex, cgal_domain, domain);
-
-  CGAL::Mesh_3::Mesher_3<Complex, Criteria, Domain> mesher(complex, cgal_domain, criteria,
-                                                           CGAL::FACET_VERTICES_ON_SURFACE);
-  progress("refinement", "");
-  mesher.initialize();
-  Pace pace;
-  while (!mesher.is_algorithm_done()) {
-    mesher.one_step();
-    pace([&] { progress("refinement", fmt::format("{} points", complex.triangulation().number_of_vertices())); });
-  }
-  return extract(complex);
 }
 
 }  // namespace
 
-Tetrahedra tetrahedralise(const LabelDomain& domain, const MeshingProgress& progress) {
-  return refine(make_domain(domain), domain, progress);
+Tetrahedra tetrahedralise(const SurfaceComplex& complex, const std::function<double(const Point&)>& size,
+                          const FillSettings& settings) {
+  std::vector<double> sizes;
+  for (const auto& p : complex.points) sizes.push_back(size(p));
+  Tetrahedra mesh;
+  mesh.points = complex.points;
+  mesh.on_curve = on_rims(complex);
+  fill(complex, Label::lumen, sizes, settings.in_lumen, mesh);
+  const auto has_wall = [](const Patch& patch) { return bounds(patch, Label::wall); };
+  if (std::any_of(complex.patches.begin(), complex.patches.end(), has_wall))
+    fill(complex, Label::wall, sizes, settings.in_wall, mesh);
+  mesh.on_curve.resize(mesh.points.size(), false);
+  return mesh;
 }
 
 }  // namespace tunica::stages::meshing

@@ -1,18 +1,24 @@
-// The meshing engine: Delaunay refinement with CGAL's Mesh_3, behind types of our own.
+// The meshing engine: fills a closed complex of triangles with tetrahedra, by TetGen behind types of our own.
 #pragma once
 
 #include <functional>
-#include <string>
 
+#include "tunica/stages/meshing/surface_complex.hpp"
 #include "tunica/stages/meshing/tetrahedra.hpp"
 
 namespace tunica::stages::meshing {
 
-/// Told when a phase begins and every second or so within it: name, numbers so far.
-using MeshingProgress = std::function<void(const std::string& phase, const std::string& state)>;
+struct FillSettings {
+  double in_lumen = 1.0;  ///< edge length inside over that of the surfaces around
+  double in_wall = 2.0;   ///< hardly any node is added inside the wall: its surfaces are about one edge apart
+};
 
-/// Meshes all labels of `domain` at once. Deterministic. There are slivers in the result, which improve() takes out
-/// faster than CGAL's exudation. Throws SolverError when there is no surface in the box.
-Tetrahedra tetrahedralise(const LabelDomain& domain, const MeshingProgress& progress);
+/// Fills lumen and wall, each on its own; they share the triangles of `complex`, which all become faces of tetrahedra.
+/// `size(x)` [m] is the wanted edge length at a point of the complex. Elements are refined until the ratio of the
+/// radius of the ball around them to their shortest edge is below 1.4 and dihedral angles are above 10 degrees, except
+/// where the given triangles forbid it; improve() does the rest. Throws SolverError with TetGen's reason. (Si 2015, ACM
+/// TOMS 41, 11.)
+Tetrahedra tetrahedralise(const SurfaceComplex& complex, const std::function<double(const Point&)>& size,
+                          const FillSettings& settings);
 
 }  // namespace tunica::stages::meshing

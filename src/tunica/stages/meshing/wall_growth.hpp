@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "tunica/config/schema.hpp"
 #include "tunica/stages/meshing/openings.hpp"
 #include "tunica/stages/meshing/triangle_surface.hpp"
 
@@ -18,6 +19,8 @@ struct GrowthSettings {
   double thickest = 2e-3;    ///< [m]
   double fillet = 1e-3;      ///< radius by which notches between vessels are rounded [m], > 0
   double spacing = 0.6e-3;   ///< of the distance samples [m]; below the thickness
+
+  static config::Schema<GrowthSettings> schema();
 };
 
 /// Wall thickness [m] at each point of a lumen surface; arguments as of `grow_wall`. The radius of a vessel is that of

@@ -1,0 +1,81 @@
+#include "tunica/stages/meshing/geometry.hpp"
+
+#include <algorithm>
+
+#include "tunica/stages/meshing/dissection_surfaces.hpp"
+#include "tunica/stages/meshing/surface_file.hpp"
+
+namespace tunica::stages::meshing {
+
+namespace {
+
+using config::Schema;
+namespace dimension = config::dimension;
+
+GeometrySurfaces from(const ParametricDissection& shape, const ComplexOptions& options) {
+  options.log("surfaces of the idealised dissection");
+  // The surfaces need to be finer than the mesh, but not much.
+  const double spacing = std::clamp(0.35 * options.sizes.largest, 0.6 * mm, 0.9 * mm);
+  return {dissection_surfaces(DissectionModel(shape), spacing), 1, "inlet", {"abdominal_aorta"}};
+}
+
+GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) {
+  const double unit = files.metres_per_unit;
+  GeometrySurfaces result{{read_surface(files.lumen, unit), {}, {}}, 1, files.inlet, files.aorta_ends};
+  if (!files.false_lumen.empty()) {
+    append(result.surfaces.lumen, read_surface(files.false_lumen, unit));
+    result.lumen_parts = 2;
+  }
+  if (!files.openings.empty()) result.surfaces.names = read_opening_names(files.openings, unit);
+  if (!files.outer_wall.empty()) {
+    result.surfaces.outer = read_surface(files.outer_wall, unit);
+    return result;
+  }
+  auto growing = options;
+  growing.lumen_parts = result.lumen_parts;
+  result.surfaces = with_grown_wall(result.surfaces.lumen, result.surfaces.names, files.wall, growing);
+  return result;
+}
+
+GeometrySurfaces from(const imaging::ImageGeometry& image, const ComplexOptions& options) {
+  return {surfaces_from_image(image, options), 1, image.surface.inlet, image.aorta_ends};
+}
+
+}  // namespace
+
+Schema<SurfaceFiles> SurfaceFiles::schema() {
+  using F = SurfaceFiles;
+  return Schema<F>("surfaces", "Surfaces of a patient, open at the vessel ends: .vtp, .stl, .ply or .obj files.")
+      .file("lumen", &F::lumen, "Surface of the lumen: true and false lumen with the tears between them")
+      .file("false_lumen", &F::false_lumen,
+            "Surface of a false lumen that is not connected with the lumen; none when left out")
+      .optional()
+      .file("outer_wall", &F::outer_wall, "Outside of the wall; when left out, the wall is grown around the lumen")
+      .optional()
+      .unit("length_unit", &F::metres_per_unit, dimension::length, "Unit of the coordinates in all these files")
+      .file("openings", &F::openings,
+            "Table (.csv) with the columns name, centre_x, centre_y, centre_z; when left out, the largest opening is "
+            "the inlet, and the others are called outlet_1, outlet_2, ... by falling area")
+      .optional()
+      .text("inlet", &F::inlet, "Name of the inlet; when left out, the first one of the table")
+      .optional()
+      .texts("aorta_ends", &F::aorta_ends,
+             "Openings besides the inlet where the aorta itself is cut; all others end branches")
+      .by_default("[]")
+      .section("wall", &F::wall, GrowthSettings::schema(), "How the wall is grown, if there is no `outer_wall`")
+      .by_default();
+}
+
+Schema<Geometry> geometry_schema() {
+  return Schema<Geometry>("geometry", "What is meshed.")
+      .one_of()
+      .alternative(ParametricDissection::schema())
+      .alternative(SurfaceFiles::schema())
+      .alternative(imaging::ImageGeometry::schema());
+}
+
+GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options) {
+  return std::visit([&](const auto& g) { return from(g, options); }, geometry);
+}
+
+}  // namespace tunica::stages::meshing

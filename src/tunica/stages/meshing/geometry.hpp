@@ -1,0 +1,40 @@
+// What can be meshed, and the surfaces that each kind of geometry gives.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tunica/stages/imaging/image_geometry.hpp"
+#include "tunica/stages/meshing/parametric_dissection.hpp"
+#include "tunica/stages/meshing/patient_complex.hpp"
+
+namespace tunica::stages::meshing {
+
+/// Surfaces of a patient in files, open at the vessel ends.
+struct SurfaceFiles {
+  std::filesystem::path lumen, false_lumen, outer_wall, openings;  ///< all but the first may be empty
+  double metres_per_unit = 0;
+  std::string inlet;                    ///< name of an opening; empty: the first of the table, or the largest
+  std::vector<std::string> aorta_ends;  ///< openings besides the inlet where the aorta itself is cut
+  GrowthSettings wall;                  ///< for the wall that is grown when there is no outer one
+
+  static config::Schema<SurfaceFiles> schema();
+};
+
+using Geometry = std::variant<ParametricDissection, SurfaceFiles, imaging::ImageGeometry>;
+config::Schema<Geometry> geometry_schema();
+
+/// Surfaces of lumen and wall, and what their openings are.
+struct GeometrySurfaces {
+  PatientSurfaces surfaces;
+  int lumen_parts = 1;
+  std::string inlet;                    ///< empty: the first opening
+  std::vector<std::string> aorta_ends;  ///< the others but the inlet end branches
+};
+
+/// Reads or makes the surfaces; grows the wall where none is given. Errors as of the functions that it calls.
+GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options);
+
+}  // namespace tunica::stages::meshing
