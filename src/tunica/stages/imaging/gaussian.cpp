@@ -1,5 +1,6 @@
 #include "tunica/stages/imaging/gaussian.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tunica::stages::imaging {
@@ -18,18 +19,22 @@ std::vector<float> kernel(double sigma) {
   return weights;
 }
 
-/// Convolves along one axis; values beyond the ends are 0.
+/// Convolves along one axis, row by row: rows along x lie in one piece.
 void filter(const ImageFrame& frame, int axis, const std::vector<float>& weights, std::vector<float>& values) {
-  const std::int64_t stride = axis == 0 ? 1 : axis == 1 ? frame.size[0] : frame.size[0] * frame.size[1];
-  const std::int64_t n = frame.size[axis], reach = std::ssize(weights) / 2;
-  std::vector<float> line(n + 2 * reach, 0.0F);
-  for (std::int64_t start = 0; start < frame.count(); ++start) {
-    if (frame.voxel(start)[axis] != 0) continue;
-    for (std::int64_t i = 0; i < n; ++i) line[reach + i] = values[start + i * stride];
-    for (std::int64_t i = 0; i < n; ++i) {
-      float sum = 0;
-      for (std::size_t w = 0; w < weights.size(); ++w) sum += weights[w] * line[i + w];
-      values[start + i * stride] = sum;
+  const auto from = values;
+  const std::int64_t n = frame.size[axis], reach = std::ssize(weights) / 2, width = frame.size[0];
+  const std::int64_t stride = axis == 0 ? 1 : axis == 1 ? width : width * frame.size[1];
+  for (std::int64_t row = 0; row < frame.count(); row += width) {
+    float* to = values.data() + row;
+    std::fill(to, to + width, 0.0F);
+    const std::int64_t at = frame.voxel(row)[axis];
+    for (std::int64_t shift = -reach; shift <= reach; ++shift) {
+      if (axis != 0 && (at + shift < 0 || at + shift >= n)) continue;
+      const float* source = from.data() + row + shift * stride;
+      const float weight = weights[shift + reach];
+      const std::int64_t first = axis == 0 ? std::max<std::int64_t>(0, -shift) : 0;
+      const std::int64_t end = axis == 0 ? std::min(width, width - shift) : width;
+      for (std::int64_t i = first; i < end; ++i) to[i] += weight * source[i];
     }
   }
 }

@@ -1,6 +1,7 @@
 // Images whose voxels say what they belong to.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -57,6 +58,22 @@ void for_each_neighbour(const ImageFrame& frame, std::int64_t index, const Visit
       for (int i = -1; i <= 1; ++i)
         if ((i != 0 || j != 0 || k != 0) && frame.holds(v[0] + i, v[1] + j, v[2] + k))
           visit(index + frame.index(i, j, k), Size3{i, j, k});
+}
+
+/// Calls `visit(index)` for the voxels of a box that holds the ball about a place.
+template <class Visit>
+void for_each_voxel_near(const ImageFrame& frame, const Point& centre, double radius, const Visit& visit) {
+  const auto to_voxels = inverse(frame.matrix());
+  const Point middle = to_voxels * (centre - frame.origin);
+  Size3 low, high;
+  for (int d = 0; d < 3; ++d) {
+    const double reach = radius * norm(Vec3<double>{{to_voxels(d, 0), to_voxels(d, 1), to_voxels(d, 2)}});
+    low[d] = std::max<std::int64_t>(0, static_cast<std::int64_t>(middle[d] - reach));
+    high[d] = std::min<std::int64_t>(frame.size[d] - 1, static_cast<std::int64_t>(middle[d] + reach) + 1);
+  }
+  for (std::int64_t k = low[2]; k <= high[2]; ++k)
+    for (std::int64_t j = low[1]; j <= high[1]; ++j)
+      for (std::int64_t i = low[0]; i <= high[0]; ++i) visit(frame.index(i, j, k));
 }
 
 struct LabelImage {

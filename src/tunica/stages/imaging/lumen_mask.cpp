@@ -65,37 +65,40 @@ LumenMask cropped(const LabelImage& image, const LumenLabels& labels, std::int64
   return mask;
 }
 
-/// Voxels that hang together by their faces, and what they are.
-struct Piece {
-  bool lumen;
-  std::vector<std::int64_t> voxels;
+/// Pieces of lumen or tissue that hang together by the faces of their voxels.
+struct Pieces {
+  std::vector<std::int32_t> of;      ///< piece of each voxel; that of the first voxel, outside of all, is 0
+  std::vector<std::int64_t> first;   ///< a voxel of each piece
+  std::vector<std::int64_t> voxels;  ///< how many it has
+  std::vector<std::int64_t> true_neighbours, false_neighbours;  ///< faces on voxels of the lumens, of tissue
 };
 
-std::vector<Piece> pieces_of(const LumenMask& mask) {
-  std::vector<Piece> pieces;
-  std::vector<bool> seen(mask.kinds.size(), false);
+Pieces pieces_of(const LumenMask& mask) {
+  Pieces pieces{std::vector<std::int32_t>(mask.kinds.size(), -1), {}, {}, {}, {}};
+  std::vector<std::int64_t> stack;
   for (std::int64_t start = 0; start < std::ssize(mask.kinds); ++start) {
-    if (seen[start]) continue;
-    auto& piece = pieces.emplace_back(Piece{mask.is_lumen(start), {start}});
-    seen[start] = true;
-    for (std::size_t next = 0; next < piece.voxels.size(); ++next)
-      for_each_face_neighbour(mask.frame, piece.voxels[next], [&](std::int64_t other) {
-        if (seen[other] || mask.is_lumen(other) != piece.lumen) return;
-        seen[other] = true;
-        piece.voxels.push_back(other);
+    if (pieces.of[start] >= 0) continue;
+    const auto piece = static_cast<std::int32_t>(pieces.first.size());
+    pieces.first.push_back(start);
+    for (auto* counts : {&pieces.voxels, &pieces.true_neighbours, &pieces.false_neighbours}) counts->push_back(0);
+    pieces.of[start] = piece;
+    stack.push_back(start);
+    while (!stack.empty()) {
+      const auto index = stack.back();
+      stack.pop_back();
+      ++pieces.voxels[piece];
+      for_each_face_neighbour(mask.frame, index, [&](std::int64_t other) {
+        if (mask.is_lumen(other) != mask.is_lumen(start)) {
+          pieces.true_neighbours[piece] += mask.kinds[other] == Kind::true_lumen;
+          pieces.false_neighbours[piece] += mask.kinds[other] == Kind::false_lumen;
+        } else if (pieces.of[other] < 0) {
+          pieces.of[other] = piece;
+          stack.push_back(other);
+        }
       });
+    }
   }
   return pieces;
-}
-
-/// The kind of most voxels around a hole.
-Kind kind_around(const LumenMask& mask, const std::vector<std::int64_t>& voxels) {
-  std::map<Kind, std::int64_t> counts;
-  for (const auto v : voxels)
-    for_each_face_neighbour(mask.frame, v, [&](std::int64_t other) {
-      if (mask.is_lumen(other)) ++counts[mask.kinds[other]];
-    });
-  return counts[Kind::true_lumen] >= counts[Kind::false_lumen] ? Kind::true_lumen : Kind::false_lumen;
 }
 
 std::int64_t count_of(const LumenMask& mask, Kind kind) {
@@ -104,24 +107,27 @@ std::int64_t count_of(const LumenMask& mask, Kind kind) {
 
 void clean(LumenMask& mask, const Log& log) {
   const auto pieces = pieces_of(mask);
-  const Piece* largest = nullptr;
-  for (const auto& piece : pieces)
-    if (piece.lumen && (!largest || piece.voxels.size() > largest->voxels.size())) largest = &piece;
-  const double voxel = mask.frame.voxel_volume();
-  std::int64_t dropped = 0, dropped_voxels = 0, filled = 0, filled_voxels = 0;
-  for (const auto& piece : pieces) {
-    if (&piece == largest || piece.voxels.front() == 0) continue;  // the first voxel lies in the tissue around all
-    const Kind kind = piece.lumen ? Kind::tissue : kind_around(mask, piece.voxels);
-    for (const auto v : piece.voxels) mask.kinds[v] = kind;
-    ++(piece.lumen ? dropped : filled);
-    (piece.lumen ? dropped_voxels : filled_voxels) += std::ssize(piece.voxels);
+  std::size_t largest = 0;  // the tissue around all, so never the answer
+  for (std::size_t p = 1; p < pieces.first.size(); ++p)
+    if (mask.is_lumen(pieces.first[p]) && (largest == 0 || pieces.voxels[p] > pieces.voxels[largest])) largest = p;
+  // What each piece becomes.
+  std::vector<std::optional<Kind>> change(pieces.first.size());
+  std::int64_t dropped = 0, filled = 0;
+  double dropped_volume = 0, filled_volume = 0;
+  for (std::size_t p = 1; p < change.size(); ++p) {
+    if (p == largest) continue;
+    const bool lumen = mask.is_lumen(pieces.first[p]);
+    change[p] = lumen                                                     ? Kind::tissue
+                : pieces.true_neighbours[p] >= pieces.false_neighbours[p] ? Kind::true_lumen
+                                                                          : Kind::false_lumen;
+    ++(lumen ? dropped : filled);
+    (lumen ? dropped_volume : filled_volume) += mask.frame.voxel_volume() * static_cast<double>(pieces.voxels[p]);
   }
+  for (std::size_t i = 0; i < mask.kinds.size(); ++i)
+    if (const auto& kind = change[pieces.of[i]]) mask.kinds[i] = *kind;
   if (dropped > 0)
-    log(fmt::format("{} separate pieces of lumen dropped, {:.3f} ml together", dropped,
-                    ml(voxel * static_cast<double>(dropped_voxels))));
-  if (filled > 0)
-    log(fmt::format("{} holes in the lumen filled, {:.3f} ml together", filled,
-                    ml(voxel * static_cast<double>(filled_voxels))));
+    log(fmt::format("{} separate pieces of lumen dropped, {:.3f} ml together", dropped, ml(dropped_volume)));
+  if (filled > 0) log(fmt::format("{} holes in the lumen filled, {:.3f} ml together", filled, ml(filled_volume)));
 }
 
 /// Dropping pieces must not take away a lumen.

@@ -298,11 +298,11 @@ void continue_beyond(const VesselEnd& end, double reach, LumenMask& mask) {
   const auto to_voxels = inverse(frame.matrix());
   const double voxel = frame.largest_spacing(), worn = 1.5 * voxel;
   const auto before = mask.kinds;
-  for (std::int64_t i = 0; i < std::ssize(mask.kinds); ++i) {
+  for_each_voxel_near(frame, end.centre, end.radius + reach + 6 * voxel, [&](std::int64_t i) {
     const auto way = frame.place(frame.voxel(i)) - end.centre;
     const double height = dot(way, end.normal) + worn;
-    if (height <= 0 || height > reach + worn + 2 * voxel) continue;
-    if (norm(way - height * end.normal) > end.radius + 2 * voxel) continue;
+    if (height <= 0 || height > reach + worn + 2 * voxel) return;
+    if (norm(way - (height - worn) * end.normal) > end.radius + 2 * voxel) return;
     Kind kind = Kind::tissue;
     if (height <= reach + worn) {
       const Point mirrored = to_voxels * (end.centre + way - 2 * height * end.normal - frame.origin);
@@ -310,7 +310,7 @@ void continue_beyond(const VesselEnd& end, double reach, LumenMask& mask) {
       if (frame.holds(v[0], v[1], v[2])) kind = before[frame.index(v[0], v[1], v[2])];
     }
     mask.kinds[i] = kind;
-  }
+  });
 }
 
 }  // namespace tunica::stages::imaging
