@@ -87,7 +87,8 @@ struct LabelImage {
 /// (NIfTI) no orientation, and for values that are no labels: whole numbers of 16 bits.
 LabelImage read_label_image(const std::filesystem::path& path);
 
-/// Writes it in the format that the name of the file ends in, compressed but for .nii. InputError when it cannot.
+/// Writes it in the format that the name of the file ends in, compressed but for .nii. InputError for another
+/// ending, SolverError when it cannot be written.
 void write_label_image(const LabelImage& image, const std::filesystem::path& path);
 
 }  // namespace tunica::stages::imaging

@@ -101,8 +101,7 @@ void write_nifti(const LabelImage& image, const std::filesystem::path& path) {
   writer->SetInputData(data);
   writer->SetSFormMatrix(matrix);
   writer->Write();
-  if (!message.text().empty())
-    throw InputError(path.string(), "cannot be written: " + message.text(), "choose a folder that can be written to");
+  if (!message.text().empty()) throw SolverError(path.string() + " cannot be written: " + message.text());
 }
 
 }  // namespace tunica::stages::imaging

@@ -23,6 +23,7 @@ config::Parsed<ScanCase> read_scan_case(const std::filesystem::path& file) {
 std::string scan_to_file(const ScanCase& scan_case, bool overwrite) {
   if (!overwrite && std::filesystem::exists(scan_case.output))
     throw InputError(scan_case.output.string(), "is there already", "give --overwrite, or another `output`");
+  if (const auto folder = scan_case.output.parent_path(); !folder.empty()) std::filesystem::create_directories(folder);
   const meshing::DissectionModel model(scan_case.parametric);
   write_label_image(scan(model, scan_case.scan), scan_case.output);
   std::string text =

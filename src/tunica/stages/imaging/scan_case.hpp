@@ -21,7 +21,7 @@ struct ScanCase {
 config::Parsed<ScanCase> read_scan_case(const std::filesystem::path& file);
 
 /// Writes the image and returns the section `geometry` of a file of `tunica mesh` for it, with the names of the vessel
-/// ends. InputError when the image exists and `overwrite` is false, or cannot be written.
+/// ends. InputError when the image exists and `overwrite` is false; errors of `write_label_image`.
 std::string scan_to_file(const ScanCase& scan_case, bool overwrite);
 
 }  // namespace tunica::stages::imaging
