@@ -1,5 +1,6 @@
 // Files of labelled images: written and read back, and written by hand after the definition of each format.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>

@@ -1,14 +1,18 @@
 // The lumen surface from a labelled image with noise against the body that was imaged.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "tunica/stages/imaging/label_surface.hpp"
 #include "tunica/stages/imaging/synthetic_scan.hpp"
 #include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/meshing/triangle_tree.hpp"
 
 namespace tunica::stages::imaging {
@@ -101,6 +105,30 @@ double tear_ratio(const DissectionModel& model, const TriangleTree& surface, con
   return found / exact;
 }
 
+double rim_area(const TriangleSurface& surface, const meshing::Loop& loop, const Point& centre) {
+  Vec3<double> sum{{0, 0, 0}};
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum = sum + 0.5 * cross(surface.points[loop[i]] - centre, surface.points[loop[(i + 1) % loop.size()]] - centre);
+  return norm(sum);
+}
+
+/// Vessel ends are where they are in the body, as steep and as wide: the scanner's blur has not rounded them.
+void expect_openings(const LabelSurface& result, const DissectionModel& model) {
+  const auto loops = meshing::boundary_loops(result.lumen);
+  ASSERT_EQ(loops.size(), model.openings().size());
+  for (const auto& o : model.openings()) {
+    const auto& end = *std::min_element(result.ends.begin(), result.ends.end(), [&](const auto& a, const auto& b) {
+      return norm(a.centre - o.centre) < norm(b.centre - o.centre);
+    });
+    EXPECT_LT(norm(end.centre - o.centre), 0.3e-3) << o.name;
+    EXPECT_GT(dot(end.normal, o.normal), std::cos(4 * M_PI / 180)) << o.name;
+    const auto& loop = *std::min_element(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
+      return norm(result.lumen.points[a[0]] - o.centre) < norm(result.lumen.points[b[0]] - o.centre);
+    });
+    EXPECT_NEAR(rim_area(result.lumen, loop, o.centre) / (M_PI * o.lumen_radius * o.lumen_radius), 1, 0.03) << o.name;
+  }
+}
+
 void expect_true(const ScanSettings& settings, const meshing::ParametricDissection& shape) {
   const DissectionModel model(shape);
   const auto result = surface_of(scan(model, settings), {.labels = {scan_true_lumen, scan_false_lumen}},
@@ -124,20 +152,55 @@ void expect_true(const ScanSettings& settings, const meshing::ParametricDissecti
   const auto part = meshing::components(result.lumen);
   EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
   EXPECT_EQ(meshing::genus(result.lumen, std::ssize(result.ends)), 1);  // two tears, and no hole in the flap
-  ASSERT_EQ(result.ends.size(), model.openings().size());
-  for (const auto& o : model.openings()) {
-    double nearest = 1, turned = 0;
-    for (const auto& end : result.ends)
-      if (norm(end.centre - o.centre) < nearest) {
-        nearest = norm(end.centre - o.centre);
-        turned = dot(end.normal, o.normal);
-      }
-    EXPECT_LT(nearest, 0.3e-3) << o.name;
-    EXPECT_GT(turned, std::cos(3 * M_PI / 180)) << o.name;
-  }
+  expect_openings(result, model);
 }
 
 TEST(LabelledImage, GivesVolumeFlapAndTearsOfTheDissection) { expect_true({}, {}); }
+
+/// A tube with a flap about its middle, both ends of which are free. Planes lie between the voxels.
+constexpr double tube_radius = 9e-3, tube_half = 30.1e-3, flap_half_length = 11.9e-3, flap_half = 1.4e-3;
+int tube_with_flap(const Point& p) {
+  if (std::hypot(p[0], p[1]) > tube_radius || std::abs(p[2]) > tube_half) return 0;
+  if (std::abs(p[2]) > flap_half_length) return scan_true_lumen;
+  return std::abs(p[0]) < flap_half ? 0 : p[0] > 0 ? scan_true_lumen : scan_false_lumen;
+}
+
+TEST(LabelledImage, BecomesAMeshWithAGrownWall) {
+  LabelImage image{{{40, 40, 100}, {{-13.65e-3, -13.65e-3, -34.65e-3}}, {}}, {}};
+  for (int d = 0; d < 3; ++d) image.frame.steps[d][d] = 0.7e-3;
+  for (std::int64_t i = 0; i < image.frame.count(); ++i)
+    image.labels.push_back(static_cast<std::int16_t>(tube_with_flap(image.frame.place(image.frame.voxel(i)))));
+  const auto file = std::filesystem::temp_directory_path() / ("tunica_flap_" + std::to_string(::getpid()) + ".nrrd");
+  write_label_image(image, file);
+  meshing::MeshCase mesh_case;
+  ImageGeometry geometry;
+  geometry.file = file;
+  geometry.surface.labels = {scan_true_lumen, scan_false_lumen};
+  geometry.surface.openings = {{"in", {{{0, 0, -tube_half}}, {}}}, {"out", {{{0, 0, tube_half}}, {}}}};
+  geometry.aorta_ends = {"out"};
+  geometry.wall.thinnest = geometry.wall.thickest = 1.5e-3;
+  mesh_case.geometry = geometry;
+  mesh_case.size = 3e-3;
+  const auto made = meshing::make_mesh(mesh_case, [](const std::string&) {});
+  std::filesystem::remove(file);
+
+  const auto report = nlohmann::json::parse(made.report_json);
+  EXPECT_EQ(report["lumen_boundary"]["parts"], 1);
+  EXPECT_EQ(report["lumen_boundary"]["genus"], 1);
+  EXPECT_EQ(report["lumen_boundary"]["manifold"], true);
+  EXPECT_GT(report["shapes"]["smallest_dihedral_deg"].get<double>(), 3);
+  double lumen = 0, wall = 0;
+  for (const auto& region : report["regions"]) {
+    const auto volume = region["volume_ml"].get<double>();
+    (region["name"] == "lumen" ? lumen : wall) += volume;
+  }
+  const double sheet = 1e6 * 8 * tube_radius * flap_half * flap_half_length,
+               whole = 1e6 * M_PI * tube_radius * tube_radius * 2 * tube_half,
+               shell = 1e6 * M_PI * (std::pow(tube_radius + 1.5e-3, 2) - tube_radius * tube_radius) * 2 * tube_half;
+  std::printf("lumen %.3f ml (%.3f), wall %.3f ml (%.3f)\n", lumen, whole - sheet, wall, shell + sheet);
+  EXPECT_NEAR(lumen / (whole - sheet), 1, 0.02);
+  EXPECT_NEAR(wall / (shell + sheet), 1, 0.03);
+}
 
 }  // namespace
 }  // namespace tunica::stages::imaging
