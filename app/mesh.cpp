@@ -17,8 +17,10 @@ void mesh(const std::string& file, const std::string& output, bool overwrite) {
     std::fflush(stdout);
   };
   const auto report = stages::meshing::mesh_to_files(parsed.value, overwrite, say);
-  std::printf("\n%s\nwritten to %s: lumen/, wall/, meshes.yaml (the section `meshes` of a case file), report.json\n",
-              report.c_str(), parsed.value.output.c_str());
+  std::printf(
+      "\n%s\nwritten to %s: lumen/, wall/, meshes.yaml (the section `meshes` of a case file), report.json, "
+      "report.html\n",
+      report.c_str(), parsed.value.output.c_str());
 }
 
 }  // namespace

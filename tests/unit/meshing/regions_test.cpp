@@ -175,9 +175,15 @@ TEST(MeshReport, VolumesAreasAndShapes) {
   const auto data = assemble(b.mesh, b.openings, b.faces, find(b));
   const double lumen = test::volume(b.mesh, lumen_label), wall = test::volume(b.mesh, wall_label);
   const Fidelity fidelity{{1e-4, 0.1}, {2e-4, 0.2}, lumen / 1.01, wall / 0.98};
-  const auto report = mesh_report({data, wall_layers(b.mesh, b.faces.outer), fidelity, {{"test", 1.5}}, 1e6});
+  const Thickness thickness{{1e-3, 2e-3, 3e-3, std::numeric_limits<double>::infinity()}, {0, 0, 1, 0}};
+  const std::vector<Tear> tears = {{{{1e-3, 2e-3, 3e-3}}, {{1, 0, 0}}, 5e-6}};
+  const auto report =
+      mesh_report({data, wall_layers(b.mesh, b.faces.outer), fidelity, thickness, tears, {{"test", 1.5}}, 1e6});
   EXPECT_NEAR(report["fidelity"]["lumen_volume_percent"].get<double>(), 1, 1e-9);
   EXPECT_NEAR(report["fidelity"]["wall_volume_percent"].get<double>(), -2, 1e-9);
+  EXPECT_NEAR(report["thickness_mm"]["flap"]["median"].get<double>(), 3, 1e-12);
+  EXPECT_NEAR(report["thickness_mm"]["wall"]["95_percent"].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(report["tears"][0]["area_mm2"].get<double>(), 5, 1e-12);
   EXPECT_NEAR(report["fidelity"]["outer_distance_mm"].get<double>(), 0.2, 1e-12);
   double volume = 0;
   for (const auto& region : report["regions"]) volume += region["volume_ml"].get<double>();

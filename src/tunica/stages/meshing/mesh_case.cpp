@@ -14,6 +14,7 @@
 #include "tunica/stages/meshing/fidelity.hpp"
 #include "tunica/stages/meshing/improve.hpp"
 #include "tunica/stages/meshing/layers.hpp"
+#include "tunica/stages/meshing/mesh_page.hpp"
 #include "tunica/stages/meshing/mesh_report.hpp"
 #include "tunica/stages/meshing/projection.hpp"
 #include "tunica/stages/meshing/tetrahedralise.hpp"
@@ -184,9 +185,11 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
   phases.begin("report");
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);
   const auto layers = find_layers(mesh, openings);
+  const auto tears = find_tears(mesh, regions.side);
   phases.end();
-  const auto report = mesh_report({data, layers, fidelity, phases.seconds, peak_memory()});
-  return {std::move(data), report.dump(2) + "\n", report_text(report)};
+  const auto report = mesh_report({data, layers, fidelity, prepared.thickness, tears, phases.seconds, peak_memory()});
+  return {std::move(data), report.dump(2) + "\n", report_text(report),
+          mesh_page({mesh_case.title, mesh, regions, tears, prepared, report})};
 }
 
 std::string mesh_to_files(const MeshCase& mesh_case, bool overwrite, const Say& say) {
@@ -198,6 +201,7 @@ std::string mesh_to_files(const MeshCase& mesh_case, bool overwrite, const Say& 
   mesh::write_simvascular(folder / "lumen", made.data, mesh::RegionKind::lumen, mm);
   const auto regions = mesh::write_simvascular(folder / "wall", made.data, mesh::RegionKind::wall, mm);
   mesh::write_atomically(folder / "meshes.yaml", case_section(regions));
+  mesh::write_atomically(folder / "report.html", made.report_page);
   mesh::write_atomically(report_file, made.report_json);
   return made.report_text;
 }

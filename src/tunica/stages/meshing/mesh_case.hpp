@@ -36,6 +36,7 @@ config::Parsed<MeshCase> read_mesh_case(const std::filesystem::path& file);
 struct MadeMesh {
   mesh::MeshData data;
   std::string report_json, report_text;  ///< see mesh_report.hpp
+  std::string report_page;               ///< see mesh_page.hpp
 };
 /// One line for the terminal: what is going on.
 using Say = std::function<void(const std::string& line)>;
@@ -43,8 +44,9 @@ using Say = std::function<void(const std::string& line)>;
 /// Throws SolverError when the mesh does not become what it has to be.
 MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say);
 
-/// Makes the mesh and writes lumen/ and wall/ (SimVascular's layout, mm), report.json and meshes.yaml, the section for
-/// a case file. Returns the report as text. Throws InputError when there is a mesh already and `overwrite` is false.
+/// Makes the mesh and writes lumen/ and wall/ (SimVascular's layout, mm), report.json, report.html and meshes.yaml, the
+/// section for a case file. Returns the report as text. Throws InputError when there is a mesh already and `overwrite`
+/// is false.
 std::string mesh_to_files(const MeshCase& mesh_case, bool overwrite, const Say& say);
 
 }  // namespace tunica::stages::meshing

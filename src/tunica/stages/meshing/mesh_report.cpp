@@ -66,6 +66,22 @@ std::vector<Triangle> boundary(const mesh::MeshData& data, mesh::RegionKind kind
 
 nlohmann::json to_json(const Topology& t) { return {{"parts", t.parts}, {"genus", t.genus}, {"manifold", t.manifold}}; }
 
+/// Percentiles over the points of the lumen surface, of flap and wall.
+nlohmann::json to_json(const Thickness& thickness) {
+  std::map<std::string, std::vector<double>> values;
+  for (std::size_t p = 0; p < thickness.value.size(); ++p)
+    if (std::isfinite(thickness.value[p])) values[thickness.flap[p] ? "flap" : "wall"].push_back(thickness.value[p]);
+  nlohmann::json result = nlohmann::json::object();
+  for (auto& [name, list] : values) {
+    std::sort(list.begin(), list.end());
+    const auto at = [&, &all = list](double share) {
+      return 1e3 * all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))];
+    };
+    result[name] = {{"5_percent", at(0.05)}, {"median", at(0.5)}, {"95_percent", at(0.95)}};
+  }
+  return result;
+}
+
 /// Volumes and distances against the surfaces given.
 nlohmann::json to_json(const Fidelity& fidelity, const mesh::MeshData& data) {
   double lumen = 0, wall = 0;
@@ -197,6 +213,11 @@ nlohmann::json mesh_report(const ReportInput& input) {
   report["wall_one_element_thick_percent"] =
       100.0 * static_cast<double>(layers.bridged_nodes) / static_cast<double>(std::max<Index>(1, layers.surface_nodes));
   report["fidelity"] = to_json(input.fidelity, data);
+  report["thickness_mm"] = to_json(input.thickness);
+  report["tears"] = nlohmann::json::array();
+  for (const auto& tear : input.tears)
+    report["tears"].push_back({{"area_mm2", tear.area * 1e6},
+                               {"centre_mm", {tear.centre[0] * 1e3, tear.centre[1] * 1e3, tear.centre[2] * 1e3}}});
   double total = 0;
   for (const auto& [phase, seconds] : input.seconds) {
     report["seconds"][phase] = seconds;
@@ -235,7 +256,12 @@ std::string report_text(const nlohmann::json& r) {
       f["lumen_volume_percent"].get<double>(), f["wall_volume_percent"].get<double>(),
       f["lumen_distance_mm"].get<double>(), f["lumen_distance_per_edge"].get<double>(),
       f["outer_distance_mm"].get<double>(), f["outer_distance_per_edge"].get<double>());
-  text += fmt::format("wall only one element thick at {:.1f} % of its surface nodes\n",
+  text += "tears:";
+  for (const auto& tear : r["tears"]) text += fmt::format(" {:.0f} mm^2;", tear["area_mm2"].get<double>());
+  for (const auto& [name, values] : r["thickness_mm"].items())
+    text += fmt::format(" {} {:.2f} mm thick (5 to 95 %: {:.2f} to {:.2f});", name, values["median"].get<double>(),
+                        values["5_percent"].get<double>(), values["95_percent"].get<double>());
+  text += fmt::format("\nwall only one element thick at {:.1f} % of its surface nodes\n",
                       r["wall_one_element_thick_percent"].get<double>());
   for (const auto& [phase, seconds] : r["seconds"].items())
     text += fmt::format("{}: {:.1f} s; ", phase, seconds.get<double>());

@@ -7,7 +7,7 @@
 
 #include "tunica/mesh/mesh_data.hpp"
 #include "tunica/stages/meshing/fidelity.hpp"
-#include "tunica/stages/meshing/tetrahedra.hpp"
+#include "tunica/stages/meshing/tears.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -41,6 +41,8 @@ struct ReportInput {
   const mesh::MeshData& data;
   const WallLayers& layers;
   const Fidelity& fidelity;
+  const Thickness& thickness;
+  const std::vector<Tear>& tears;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase
   double peak_memory = 0;                               ///< byte
 };
