@@ -242,29 +242,45 @@ std::optional<VesselEnd> flat_face(const SmoothField& field, const Point& behind
   return centred(field, behind + plane[0] * axis, normal, cut.radius);
 }
 
+/// Nearly twice as long as the vessel is wide. A stub starts at the rim of the end, so it does not show the width
+/// before it is that long.
 template <class Depth>
-std::optional<VesselEnd> end_of_tip(std::int64_t tip, const LumenMask& mask, const SmoothField& field,
-                                    const Depth& depth) {
-  const auto& frame = mask.frame;
-  const double spacing = frame.largest_spacing();
-  // The stub is to be nearly twice as long as wide. It starts at the rim of the end, so it does not show the width
-  // before it is that long.
-  double length = 6 * spacing;
-  auto stub = stub_behind(tip, length, mask, depth);
-  for (double wanted = 0; length < widest; length = wanted) {
-    const double area = frame.voxel_volume() * static_cast<double>(stub.voxels.size()) / length;
-    wanted = std::min(widest, 3.5 * std::sqrt(area / M_PI));
+double length_of_stub(std::int64_t tip, const LumenMask& mask, const Depth& depth) {
+  double length = 6 * mask.frame.largest_spacing();
+  while (length < widest) {
+    const auto voxels = static_cast<double>(stub_behind(tip, length, mask, depth).voxels.size());
+    const double area = mask.frame.voxel_volume() * voxels / length;
+    const double wanted = std::min(widest, 3.5 * std::sqrt(area / M_PI));
     if (wanted <= length) break;
-    stub = stub_behind(tip, wanted, mask, depth);
+    length = wanted;
   }
+  return length;
+}
+
+template <class Depth>
+std::optional<VesselEnd> end_of_stub(std::int64_t tip, double length, const LumenMask& mask, const SmoothField& field,
+                                     const Depth& depth) {
+  const auto& frame = mask.frame;
+  const auto stub = stub_behind(tip, length, mask, depth);
   auto axis = centroid(stub, 0, 0.4 * length, frame) - centroid(stub, 0.6 * length, length, frame);
   if (!(norm(axis) > 0)) return {};
   axis = (1 / norm(axis)) * axis;
   auto face = flat_face(field, centroid(stub, 0.4 * length, 0.6 * length, frame), axis);
   // Again along its own normal: the stub may be bent, or end obliquely.
+  const double least = 3 * frame.largest_spacing();
   for (int i = 0; i < 2 && face; ++i)
-    face = flat_face(field, face->centre - std::max(3 * spacing, 0.3 * face->radius) * face->normal, face->normal);
+    face = flat_face(field, face->centre - std::max(least, 0.3 * face->radius) * face->normal, face->normal);
   return face;
+}
+
+template <class Depth>
+std::optional<VesselEnd> end_of_tip(std::int64_t tip, const LumenMask& mask, const SmoothField& field,
+                                    const Depth& depth) {
+  const double longest = length_of_stub(tip, mask, depth);
+  // Vessels that are short or bent show their direction on a shorter stub.
+  for (const double share : {1.0, 0.7, 0.5, 0.35})
+    if (const auto end = end_of_stub(tip, share * longest, mask, field, depth)) return end;
+  return {};
 }
 
 }  // namespace
