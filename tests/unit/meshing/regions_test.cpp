@@ -33,6 +33,26 @@ WallRegions find(const Block& b) {
   return find_wall_regions(b.mesh, {{b.faces.caps[0], false}, {b.faces.caps[1], false}}, {.thickest_flap = 1.5e-3});
 }
 
+TEST(WallRegions, PlacesOverrideWhatTheMeshTells) {
+  const auto b = make_block();
+  const auto count = [&](const WallRegionOptions& options, WallRegion region = WallRegion::flap) {
+    const auto regions = find_wall_regions(b.mesh, {{b.faces.caps[0], false}, {b.faces.caps[1], false}}, options);
+    Index sum = 0;
+    for (std::size_t e = 0; e < b.mesh.elements.size(); ++e)
+      sum += b.mesh.labels[e] == wall_label && regions.of_element[e] == region;
+    return sum;
+  };
+  const Point in_false{{6.5e-3, 4.5e-3, 14e-3}};
+  const auto usual = count({.thickest_flap = 1.5e-3});
+  EXPECT_GT(usual, 100);
+  EXPECT_EQ(count({.thickest_flap = 1.5e-3, .false_lumen = {in_false}}), usual);
+  // The other way round, too much is called false: the vessel beyond the flap as well.
+  EXPECT_EQ(count({.thickest_flap = 1.5e-3, .true_lumen = {in_false}}), usual);
+  EXPECT_EQ(count({.thickest_flap = 1.5e-3, .true_lumen = {in_false}}, WallRegion::true_lumen_wall),
+            count({.thickest_flap = 1.5e-3}, WallRegion::false_lumen_wall));
+  EXPECT_THROW(count({.true_lumen = {{{1, 1, 1}}}}), InputError);
+}
+
 TEST(WallRegions, TrueAndFalseLumenAndFlap) {
   const auto b = make_block();
   const auto regions = find(b);

@@ -4,7 +4,7 @@
 
 #include "small_surfaces.hpp"
 #include "tunica/stages/meshing/caps.hpp"
-#include "tunica/stages/meshing/patient_complex.hpp"
+#include "tunica/stages/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/surface_file.hpp"
 
 namespace tunica::stages::meshing {
@@ -77,7 +77,7 @@ TEST(PatientComplex, WithAGrownWall) {
   growth.spacing = 0.8e-3;
   ComplexOptions options;
   options.lumen_parts = 2;
-  const auto prepared = patient_complex(with_grown_wall(lumen, {}, growth, options), options);
+  const auto prepared = patient_complex(with_grown_wall(lumen, {}, growth, {}, options), options);
   EXPECT_NO_THROW(verify(prepared.complex));
   const double ball = 4 * M_PI * 64e-9 / 3, tubes = M_PI * 16e-6 * (24e-3 + 12e-3);
   EXPECT_NEAR(volume(prepared.complex, Label::lumen) / (ball + tubes), 1, 1e-2);
@@ -90,6 +90,23 @@ TEST(PatientComplex, WithAGrownWall) {
     }
   EXPECT_NEAR(flap, 2e-3, 0.05e-3);
   EXPECT_NEAR(wall, 1.5e-3, 0.15e-3);  // samples every 0.8 mm
+}
+
+TEST(PatientComplex, GrownWallIsThinnerAroundTheFalseLumenIfAsked) {
+  GrowthSettings growth;
+  growth.thinnest = growth.thickest = 1.5e-3;
+  growth.false_lumen_wall = 1e-3;
+  growth.spacing = 0.5e-3;
+  ComplexOptions options;
+  options.lumen_parts = 2;
+  const auto prepared = patient_complex(with_grown_wall(two_lumens(), {}, growth, {}, options), options);
+  std::vector<double> wall;
+  for (std::size_t p = 0; p < prepared.thickness.value.size(); ++p)
+    if (!prepared.thickness.flap[p] && std::isfinite(prepared.thickness.value[p]))
+      wall.push_back(prepared.thickness.value[p]);
+  std::sort(wall.begin(), wall.end());
+  EXPECT_NEAR(wall[wall.size() / 20], 1e-3, 0.1e-3);
+  EXPECT_NEAR(wall[3 * wall.size() / 4], 1.5e-3, 0.1e-3);
 }
 
 TEST(PatientComplex, WrittenWithPatches) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "tunica/stages/meshing/patient_complex.hpp"
+#include "tunica/stages/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/surface_file.hpp"
 #include "tunica/stages/meshing/surface_mending.hpp"
 
@@ -102,7 +102,7 @@ TEST_F(Patient, GrownWallIsNearTheGivenOne) {
   ComplexOptions options;
   options.sizes.largest = 3e-3;
   options.log = [](const std::string& line) { fmt::print("{}\n", line); };
-  const auto grown = with_grown_wall(surfaces.lumen, surfaces.names, growth, options);
+  const auto grown = with_grown_wall(surfaces.lumen, surfaces.names, growth, {}, options);
   const auto prepared = patient_complex(grown, options);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 

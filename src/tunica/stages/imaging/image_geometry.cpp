@@ -16,11 +16,15 @@ config::Schema<ImageGeometry> ImageGeometry::schema() {
   return schema;
 }
 
+meshing::VesselRoles roles_of(const ImageGeometry& geometry) {
+  return {geometry.surface.inlet, geometry.aorta_ends, {}, {}};
+}
+
 meshing::PatientSurfaces surfaces_from_image(const ImageGeometry& geometry, const meshing::ComplexOptions& options) {
   const auto made = surface_of(read_label_image(geometry.file), geometry.surface, options.log);
   std::vector<meshing::NamedPlace> names;
   for (const auto& [name, opening] : geometry.surface.openings) names.push_back({name, made.ends[names.size()].centre});
-  return meshing::with_grown_wall(made.lumen, names, geometry.wall, options);
+  return meshing::with_grown_wall(made.lumen, names, geometry.wall, roles_of(geometry), options);
 }
 
 }  // namespace tunica::stages::imaging

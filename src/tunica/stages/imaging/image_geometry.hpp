@@ -7,7 +7,7 @@
 
 #include "tunica/config/schema.hpp"
 #include "tunica/stages/imaging/label_surface.hpp"
-#include "tunica/stages/meshing/patient_complex.hpp"
+#include "tunica/stages/meshing/grown_wall.hpp"
 
 namespace tunica::stages::imaging {
 
@@ -19,6 +19,9 @@ struct ImageGeometry {
 
   static config::Schema<ImageGeometry> schema();
 };
+
+/// What its openings are.
+meshing::VesselRoles roles_of(const ImageGeometry& geometry);
 
 /// Reads the image and makes lumen and outer surface of it. Errors as of `read_label_image`, `surface_of` and
 /// `meshing::with_grown_wall`.

@@ -12,16 +12,42 @@ namespace {
 using config::Schema;
 namespace dimension = config::dimension;
 
+Schema<Point> place_schema() {
+  return Schema<Point>("place", "A place in a lumen.")
+      .quantities(
+          "at", [](Point& p) -> Point& { return p; }, dimension::length, config::anything(), "x, y, z")
+      .shorthand("at");
+}
+
+Schema<VesselRoles> roles_schema() {
+  using R = VesselRoles;
+  return Schema<R>("roles", "What the openings and lumens are.")
+      .text("inlet", &R::inlet, "Name of the inlet; when left out, the first one of the table")
+      .optional()
+      .texts("aorta_ends", &R::aorta_ends,
+             "Openings besides the inlet where the aorta itself is cut; all others end branches")
+      .by_default("[]")
+      .list("true_lumen_at", &R::true_lumen, place_schema(),
+            "Places known to lie in the true lumen, as `[\"[10, -20, 5] mm\"]`; when neither these nor those of the "
+            "false lumen are given, the lumen at the inlet is the true one")
+      .by_default()
+      .list("false_lumen_at", &R::false_lumen, place_schema(), "The same for the false lumen")
+      .by_default();
+}
+
 GeometrySurfaces from(const ParametricDissection& shape, const ComplexOptions& options) {
   options.log("surfaces of the idealised dissection");
   // The surfaces need to be finer than the mesh, but not much.
   const double spacing = std::clamp(0.35 * options.sizes.largest, 0.6 * mm, 0.9 * mm);
-  return {dissection_surfaces(DissectionModel(shape), spacing), 1, "inlet", {"abdominal_aorta"}};
+  VesselRoles roles;
+  roles.inlet = "inlet";
+  if (!shape.iliacs) roles.aorta_ends = {"abdominal_aorta"};
+  return {dissection_surfaces(DissectionModel(shape), spacing), 1, roles};
 }
 
 GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) {
   const double unit = files.metres_per_unit;
-  GeometrySurfaces result{{read_surface(files.lumen, unit), {}, {}}, 1, files.inlet, files.aorta_ends};
+  GeometrySurfaces result{{read_surface(files.lumen, unit), {}, {}}, 1, files.roles};
   if (!files.false_lumen.empty()) {
     append(result.surfaces.lumen, read_surface(files.false_lumen, unit));
     result.lumen_parts = 2;
@@ -33,12 +59,12 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) 
   }
   auto growing = options;
   growing.lumen_parts = result.lumen_parts;
-  result.surfaces = with_grown_wall(result.surfaces.lumen, result.surfaces.names, files.wall, growing);
+  result.surfaces = with_grown_wall(result.surfaces.lumen, result.surfaces.names, files.wall, files.roles, growing);
   return result;
 }
 
 GeometrySurfaces from(const imaging::ImageGeometry& image, const ComplexOptions& options) {
-  return {surfaces_from_image(image, options), 1, image.surface.inlet, image.aorta_ends};
+  return {surfaces_from_image(image, options), 1, roles_of(image)};
 }
 
 }  // namespace
@@ -57,11 +83,7 @@ Schema<SurfaceFiles> SurfaceFiles::schema() {
             "Table (.csv) with the columns name, centre_x, centre_y, centre_z; when left out, the largest opening is "
             "the inlet, and the others are called outlet_1, outlet_2, ... by falling area")
       .optional()
-      .text("inlet", &F::inlet, "Name of the inlet; when left out, the first one of the table")
-      .optional()
-      .texts("aorta_ends", &F::aorta_ends,
-             "Openings besides the inlet where the aorta itself is cut; all others end branches")
-      .by_default("[]")
+      .include(&F::roles, roles_schema())
       .section("wall", &F::wall, GrowthSettings::schema(), "How the wall is grown, if there is no `outer_wall`")
       .by_default();
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tunica/stages/imaging/image_geometry.hpp"
+#include "tunica/stages/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/parametric_dissection.hpp"
-#include "tunica/stages/meshing/patient_complex.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -16,9 +16,8 @@ namespace tunica::stages::meshing {
 struct SurfaceFiles {
   std::filesystem::path lumen, false_lumen, outer_wall, openings;  ///< all but the first may be empty
   double metres_per_unit = 0;
-  std::string inlet;                    ///< name of an opening; empty: the first of the table, or the largest
-  std::vector<std::string> aorta_ends;  ///< openings besides the inlet where the aorta itself is cut
-  GrowthSettings wall;                  ///< for the wall that is grown when there is no outer one
+  VesselRoles roles;
+  GrowthSettings wall;  ///< for the wall that is grown when there is no outer one
 
   static config::Schema<SurfaceFiles> schema();
 };
@@ -30,8 +29,7 @@ config::Schema<Geometry> geometry_schema();
 struct GeometrySurfaces {
   PatientSurfaces surfaces;
   int lumen_parts = 1;
-  std::string inlet;                    ///< empty: the first opening
-  std::vector<std::string> aorta_ends;  ///< the others but the inlet end branches
+  VesselRoles roles;
 };
 
 /// Reads or makes the surfaces; grows the wall where none is given. Errors as of the functions that it calls.

@@ -71,26 +71,6 @@ class Phases {
   Clock::time_point first_ = Clock::now(), started_;
 };
 
-/// The openings with the inlet first.
-std::vector<Opening> with_inlet_first(std::vector<Opening> openings, const std::string& inlet) {
-  if (inlet.empty()) return openings;
-  const auto found = std::find_if(openings.begin(), openings.end(), [&](const Opening& o) { return o.name == inlet; });
-  if (found == openings.end())
-    throw InputError("inlet", fmt::format("no opening is called '{}'", inlet), "take a name of the table of openings");
-  std::rotate(openings.begin(), found, found + 1);
-  return openings;
-}
-
-std::vector<Cap> make_caps(const SurfaceFaces& faces, const std::vector<Opening>& openings,
-                           const std::vector<std::string>& aorta_ends) {
-  std::vector<Cap> caps;
-  for (std::size_t o = 0; o < openings.size(); ++o) {
-    const bool listed = std::find(aorta_ends.begin(), aorta_ends.end(), openings[o].name) != aorta_ends.end();
-    caps.push_back({faces.caps[o], o > 0 && !listed});
-  }
-  return caps;
-}
-
 WallLayers find_layers(const Tetrahedra& mesh, const std::vector<Opening>& openings) {
   auto faces = sort_surface(mesh, openings);
   faces.interface.insert(faces.interface.end(), faces.outer.begin(), faces.outer.end());
@@ -164,7 +144,7 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
   options.lumen_parts = geometry.lumen_parts;
   phases.begin("remeshing");
   const auto prepared = patient_complex(geometry.surfaces, options);
-  const auto openings = with_inlet_first(prepared.openings, geometry.inlet);
+  const auto openings = with_inlet_first(prepared.openings, geometry.roles);
 
   phases.begin("tetrahedra");
   Tetrahedra mesh = tetrahedralise(prepared.complex, prepared.sizes, fill_settings(edge));
@@ -180,7 +160,7 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
 
   phases.begin("regions and faces");
   const auto faces = sort_surface(mesh, openings);
-  const auto regions = find_wall_regions(mesh, make_caps(faces, openings, geometry.aorta_ends), {});
+  const auto regions = wall_regions(mesh, faces, openings, geometry.roles);
   auto data = assemble(mesh, openings, faces, regions);
   phases.begin("report");
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);

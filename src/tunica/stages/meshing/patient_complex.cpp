@@ -13,17 +13,6 @@ namespace tunica::stages::meshing {
 
 namespace {
 
-TriangleSurface mended(const TriangleSurface& surface, const std::string& name, int parts,
-                       const ComplexOptions& options) {
-  MendOptions mend;
-  mend.name = name;
-  mend.parts = parts;
-  mend.spots = options.spots;
-  auto result = mend_surface(surface, mend);
-  for (const auto& line : result.report) options.log(name + ": " + line);
-  return std::move(result.surface);
-}
-
 /// Rims of a remeshed surface in the order of the openings, as positions in its points.
 std::vector<Loop> rims_of(const TriangleSurface& surface, const std::vector<Opening>& openings) {
   std::vector<Loop> rims(openings.size());
@@ -113,6 +102,17 @@ SizeField size_field(const std::vector<Sheet>& sheets, const SizeSettings& setti
 
 }  // namespace
 
+TriangleSurface mended(const TriangleSurface& surface, const std::string& name, int parts,
+                       const ComplexOptions& options) {
+  MendOptions mend;
+  mend.name = name;
+  mend.parts = parts;
+  mend.spots = options.spots;
+  auto result = mend_surface(surface, mend);
+  for (const auto& line : result.report) options.log(name + ": " + line);
+  return std::move(result.surface);
+}
+
 SurfaceComplex close_at_openings(const TriangleSurface& lumen, const TriangleSurface* outer,
                                  const std::vector<Opening>& openings) {
   const auto behind = outer ? Label::wall : Label::outside;
@@ -169,18 +169,6 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
   if (outer) outer_tree = std::move(sheets[1].original.tree);
   return {std::move(complex),    std::move(sizes),     std::move(sheets[0].original.tree),
           std::move(outer_tree), std::move(thickness), openings};
-}
-
-PatientSurfaces with_grown_wall(const TriangleSurface& lumen, const std::vector<NamedPlace>& names,
-                                const GrowthSettings& growth, const ComplexOptions& options) {
-  PatientSurfaces surfaces{mended(lumen, "lumen surface", options.lumen_parts, options), {}, names};
-  const auto openings = find_openings(surfaces.lumen, nullptr, names);
-  flatten_rims(surfaces.lumen, openings, &Opening::lumen);
-  const auto thickness = thickness_by_radius(surfaces.lumen, openings, growth);
-  const auto [least, most] = std::minmax_element(thickness.begin(), thickness.end());
-  options.log(fmt::format("wall to be grown: {:.2f} to {:.2f} mm thick", 1e3 * *least, 1e3 * *most));
-  surfaces.outer = grow_wall(surfaces.lumen, thickness, openings, growth);
-  return surfaces;
 }
 
 }  // namespace tunica::stages::meshing

@@ -10,7 +10,6 @@
 #include "tunica/stages/meshing/openings.hpp"
 #include "tunica/stages/meshing/size_field.hpp"
 #include "tunica/stages/meshing/surface_complex.hpp"
-#include "tunica/stages/meshing/wall_growth.hpp"
 
 namespace tunica::stages::meshing {
 
@@ -45,10 +44,9 @@ struct PreparedSurfaces {
 /// mended or do not fit together, SolverError when the remeshed ones are too far from the originals or cross.
 PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexOptions& options);
 
-/// Adds the outer surface to a lumen surface alone, open at the vessel ends: a wall grown outward, thicker around wider
-/// vessels. Errors as of `mend_surface`, `find_openings` and `grow_wall`.
-PatientSurfaces with_grown_wall(const TriangleSurface& lumen, const std::vector<NamedPlace>& names,
-                                const GrowthSettings& growth, const ComplexOptions& options);
+/// `mend_surface` with what it did in the log; `name` is for messages.
+TriangleSurface mended(const TriangleSurface& surface, const std::string& name, int parts,
+                       const ComplexOptions& options);
 
 /// Closes remeshed surfaces at their openings: the loop of a surface nearest to an opening is its rim. `outer` null: no
 /// wall.

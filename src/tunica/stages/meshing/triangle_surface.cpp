@@ -122,6 +122,21 @@ std::int64_t genus(const TriangleSurface& surface, std::int64_t loops) {
   return (2 - euler) / 2;
 }
 
+void average_over_neighbours(const TriangleSurface& surface, int sweeps, std::vector<double>& values) {
+  const auto all = edges(surface);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    auto sum = values;
+    std::vector<double> count(values.size(), 1);
+    for (const auto& edge : all) {
+      sum[edge.a] += values[edge.b];
+      sum[edge.b] += values[edge.a];
+      ++count[edge.a];
+      ++count[edge.b];
+    }
+    for (std::size_t p = 0; p < values.size(); ++p) values[p] = sum[p] / count[p];
+  }
+}
+
 std::vector<std::int64_t> drop_unused_points(TriangleSurface& surface) {
   std::vector<std::int64_t> number(surface.points.size(), -1);
   for (const auto& t : surface.triangles)

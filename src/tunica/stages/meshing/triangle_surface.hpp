@@ -49,6 +49,9 @@ std::vector<std::int64_t> components(const TriangleSurface& surface);
 /// Genus of a connected manifold surface after its `loops` open ends are closed by discs.
 std::int64_t genus(const TriangleSurface& surface, std::int64_t loops);
 
+/// Gives each point the mean of its own and its neighbours' values, `sweeps` times.
+void average_over_neighbours(const TriangleSurface& surface, int sweeps, std::vector<double>& values);
+
 /// Drops the points that no triangle uses; returns the new number of each old point, -1 for dropped ones.
 std::vector<std::int64_t> drop_unused_points(TriangleSurface& surface);
 

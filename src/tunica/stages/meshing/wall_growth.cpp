@@ -41,22 +41,6 @@ double inscribed_radius(const TriangleTree& tree, const Point& x, const Vec3<dou
   return std::min(radius, largest);
 }
 
-/// Averages over neighbours; the thickness of a wall has no steps.
-void smooth(const TriangleSurface& surface, int sweeps, std::vector<double>& values) {
-  const auto all = edges(surface);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    auto sum = values;
-    std::vector<double> count(values.size(), 1);
-    for (const auto& edge : all) {
-      sum[edge.a] += values[edge.b];
-      sum[edge.b] += values[edge.a];
-      ++count[edge.a];
-      ++count[edge.b];
-    }
-    for (std::size_t p = 0; p < values.size(); ++p) values[p] = sum[p] / count[p];
-  }
-}
-
 /// The lumen made longer at each opening and closed there, so that the wall goes on beyond the plane in which it is
 /// cut.
 struct Body {
@@ -197,15 +181,23 @@ config::Schema<GrowthSettings> GrowthSettings::schema() {
   return Schema<G>("wall", "The wall that is grown around the lumen, thicker around wider vessels.")
       .number("per_radius", &G::per_radius, config::range(0.02, 1), "Its thickness over the radius of the vessel")
       .by_default()
-      .quantity("thinnest", &G::thinnest, config::dimension::length, config::range(0.3 * 1e-3, 6 * 1e-3),
-                "Lower bound of it")
+      .quantity("thinnest", &G::thinnest, config::dimension::length, config::range(0.3e-3, 6e-3), "Lower bound of it")
       .by_default()
-      .quantity("thickest", &G::thickest, config::dimension::length, config::range(0.3 * 1e-3, 6 * 1e-3),
+      .quantity("thickest", &G::thickest, config::dimension::length, config::range(0.3e-3, 6e-3),
                 "Upper bound of it; equal to `thinnest` for the same thickness everywhere")
       .by_default()
-      .quantity("fillet", &G::fillet, config::dimension::length, config::range(0.2 * 1e-3, 5 * 1e-3),
+      .quantity("fillet", &G::fillet, config::dimension::length, config::range(0.2e-3, 5e-3),
                 "Radius by which notches between vessels are rounded")
       .by_default()
+      .quantity("true_lumen_wall", &G::true_lumen_wall, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Thickness around the true lumen, instead of the rule")
+      .optional()
+      .quantity("false_lumen_wall", &G::false_lumen_wall, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Thickness around the false lumen, instead of the rule")
+      .optional()
+      .quantity("branches", &G::branches, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Thickness around branches, instead of the rule")
+      .optional()
       .check([](const G& g, config::Problems& problems) {
         if (g.thinnest > g.thickest)
           problems.add("thinnest", "is larger than `thickest`", "swap them, or give the same thickness twice");
@@ -230,7 +222,7 @@ std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std:
     const double radius = tree.interpolate(radii, tree.nearest(x));
     result.push_back(std::clamp(settings.per_radius * radius, settings.thinnest, settings.thickest));
   }
-  smooth(lumen, 5, result);
+  average_over_neighbours(lumen, 5, result);  // the thickness of a wall has no steps
   return result;
 }
 

@@ -4,6 +4,7 @@
 // leave, and what lies between two lumens closer than their walls is solid: the flap.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tunica/config/schema.hpp"
@@ -19,6 +20,8 @@ struct GrowthSettings {
   double thickest = 2e-3;    ///< [m]
   double fillet = 1e-3;      ///< radius by which notches between vessels are rounded [m], > 0
   double spacing = 0.6e-3;   ///< of the distance samples [m]; below the thickness
+  /// Instead of that rule, in these regions of the wall [m].
+  std::optional<double> true_lumen_wall, false_lumen_wall, branches;
 
   static config::Schema<GrowthSettings> schema();
 };

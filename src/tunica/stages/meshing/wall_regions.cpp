@@ -1,5 +1,7 @@
 #include "tunica/stages/meshing/wall_regions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -102,10 +104,11 @@ std::vector<Tie> make_ties(const Tetrahedra& mesh, const std::vector<Passage>& p
   return ties;
 }
 
-/// Minimises the sum of |weight| (x_a -+ x_b)^2 with x = 1 where `held`: conjugate gradients, diagonal scaling.
+/// Minimises the sum of |weight| (x_a -+ x_b)^2 with x = `held` where that is not 0: conjugate gradients, diagonal
+/// scaling.
 class SignedLaplacian {
  public:
-  SignedLaplacian(const std::vector<Tie>& ties, const std::vector<bool>& held)
+  SignedLaplacian(const std::vector<Tie>& ties, const std::vector<double>& held)
       : held_(held), diagonal_(held.size(), 0.0), rows_(held.size() + 1, 0) {
     for (const auto& t : ties) {
       diagonal_[t.a] += std::abs(t.weight);
@@ -125,8 +128,7 @@ class SignedLaplacian {
 
   std::vector<double> solve() const {
     const std::size_t n = held_.size();
-    std::vector<double> x(n, 0.0), z(n), q(n), r(n);
-    for (std::size_t i = 0; i < n; ++i) x[i] = held_[i] ? 1.0 : 0.0;
+    std::vector<double> x = held_, z(n), q(n), r(n);
     multiply(x, r);
     for (auto& v : r) v = -v;
     double old = scale(r, z);
@@ -178,7 +180,7 @@ class SignedLaplacian {
     for (std::size_t i = 0; i < y.size(); ++i) {
       double sum = diagonal_[i] * x[i];
       for (Index k = rows_[i]; k < rows_[i + 1]; ++k) sum -= entries_[k].weight * x[entries_[k].column];
-      y[i] = held_[i] ? 0 : sum;
+      y[i] = held_[i] != 0 ? 0 : sum;
     }
   }
   double scale(const std::vector<double>& r, std::vector<double>& z) const {
@@ -190,7 +192,7 @@ class SignedLaplacian {
     return sum;
   }
 
-  const std::vector<bool>& held_;
+  const std::vector<double>& held_;
   std::vector<double> diagonal_;
   std::vector<Index> rows_;
   std::vector<Entry> entries_;
@@ -341,6 +343,23 @@ void smooth_borders(const Tetrahedra& mesh, const std::vector<std::array<Index, 
   }
 }
 
+/// Holds the corners of the lumen element nearest to each place.
+void hold_near(const Tetrahedra& mesh, const std::vector<Point>& places, double value, std::vector<double>& held) {
+  for (const auto& place : places) {
+    std::pair<double, Index> nearest{std::numeric_limits<double>::infinity(), -1};
+    for (Index e = 0; e < std::ssize(mesh.elements); ++e)
+      if (mesh.labels[e] == lumen_label)
+        nearest = std::min(nearest, {norm(centroid(mesh.points, mesh.elements[e]) - place), e});
+    constexpr double reach = 20e-3;
+    if (nearest.first > reach)
+      throw InputError("lumens",
+                       fmt::format("({:.1f}, {:.1f}, {:.1f}) mm is {:.0f} mm away from the lumen", 1e3 * place[0],
+                                   1e3 * place[1], 1e3 * place[2], 1e3 * nearest.first),
+                       "give a place in the lumen, with its unit");
+    for (const auto n : mesh.elements[nearest.second]) held[n] = value;
+  }
+}
+
 }  // namespace
 
 WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& caps, const WallRegionOptions& options) {
@@ -348,9 +367,12 @@ WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& ca
     throw InputError("inlet", "has no triangle in the mesh", "mesh finer, or check where the inlet is");
   const auto adjacent = neighbours(mesh);
   const auto passages = pass_everywhere(mesh, adjacent);
-  std::vector<bool> held(mesh.points.size(), false);
-  for (const auto& t : caps[0].triangles)
-    for (const auto n : t) held[n] = true;
+  std::vector<double> held(mesh.points.size(), 0.0);
+  if (options.true_lumen.empty() && options.false_lumen.empty())
+    for (const auto& t : caps[0].triangles)
+      for (const auto n : t) held[n] = 1;
+  hold_near(mesh, options.true_lumen, 1, held);
+  hold_near(mesh, options.false_lumen, -1, held);
   const auto ties = make_ties(mesh, passages, options.thickest_flap);
   WallRegions result{std::vector<WallRegion>(mesh.elements.size(), WallRegion::true_lumen_wall),
                      SignedLaplacian(ties, held).solve()};

@@ -23,8 +23,9 @@ struct WallRegions {
 };
 
 struct WallRegionOptions {
-  double thickest_flap = 4e-3;   ///< thicker walls between two lumens are no flap [m]
-  double branch_widening = 1.8;  ///< a branch ends where its cross-section has grown by this factor
+  double thickest_flap = 4e-3;                     ///< thicker walls between two lumens are no flap [m]
+  double branch_widening = 1.8;                    ///< a branch ends where its cross-section has grown by this factor
+  std::vector<Point> true_lumen{}, false_lumen{};  ///< places known to lie there [m]; the inlet counts only without
 };
 
 /// Cap triangles of one opening, as they are in surface_triangles().
@@ -33,7 +34,8 @@ struct Cap {
   bool branch;  ///< does the vessel that ends here leave the aorta as a branch?
 };
 
-/// `caps`: lumen caps, the inlet first. Throws InputError when the inlet has no triangle.
+/// `caps`: lumen caps, the inlet first. Throws InputError when the inlet has no triangle, and for
+/// places far from the lumen.
 WallRegions find_wall_regions(const Tetrahedra& mesh, const std::vector<Cap>& caps, const WallRegionOptions& options);
 
 }  // namespace tunica::stages::meshing
