@@ -9,6 +9,7 @@ namespace tunica::app {
 
 void add_check(CLI::App& app);
 void add_fibres(CLI::App& app);
+void add_image(CLI::App& app);
 void add_material(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
       "More about a subcommand: tunica <subcommand> --help");
   tunica::app::add_check(app);
   tunica::app::add_fibres(app);
+  tunica::app::add_image(app);
   tunica::app::add_material(app);
   tunica::app::add_mesh(app);
   tunica::app::add_picture(app);

@@ -1,10 +1,15 @@
 // tunica schema: the reference of the case file and of the files of other subcommands.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <memory>
 
 #include "commands.hpp"
 #include "tunica/stages/case.hpp"
 #include "tunica/stages/fibres/fibres_case.hpp"
+#include "tunica/stages/imaging/scan_case.hpp"
 #include "tunica/stages/material_case.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 
@@ -16,19 +21,27 @@ void add_schema(CLI::App& app) {
       "Examples:\n  tunica schema > case-file.md\n  tunica schema --json > tunica.schema.json\n"
       "An editor that knows YAML completes and checks case files that begin with the line\n"
       "  # yaml-language-server: $schema=tunica.schema.json");
-  const auto json = std::make_shared<bool>(false), material = std::make_shared<bool>(false),
-             mesh = std::make_shared<bool>(false), fibres = std::make_shared<bool>(false);
+  const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "As JSON Schema instead of Markdown");
-  auto* of_material = command->add_flag("--material", *material, "Of the file of `tunica material` instead");
-  auto* of_mesh = command->add_flag("--mesh", *mesh, "Of the file of `tunica mesh` instead")->excludes(of_material);
-  command->add_flag("--fibres", *fibres, "Of the file of `tunica fibres` instead")
-      ->excludes(of_material)
-      ->excludes(of_mesh);
-  command->callback([json, material, mesh, fibres] {
-    const auto description = *material ? stages::MaterialCase::schema().description()
-                             : *mesh   ? stages::meshing::MeshCase::schema().description()
-                             : *fibres ? stages::fibres::FibresCase::schema().description()
-                                       : stages::Case::schema().description();
+  using Description = std::shared_ptr<const config::Description>;
+  struct Kind {
+    const char* name;
+    std::function<Description()> describe;
+    bool wanted = false;
+  };
+  const auto kinds = std::make_shared<std::vector<Kind>>(std::vector<Kind>{
+      {"material", [] { return Description(stages::MaterialCase::schema().description()); }},
+      {"mesh", [] { return Description(stages::meshing::MeshCase::schema().description()); }},
+      {"fibres", [] { return Description(stages::fibres::FibresCase::schema().description()); }},
+      {"image", [] { return Description(stages::imaging::ScanCase::schema().description()); }},
+  });
+  auto* group = command->add_option_group("file", "Whose file is described instead of that of `tunica run`");
+  for (Kind& kind : *kinds)
+    group->add_flag(fmt::format("--{}", kind.name), kind.wanted, fmt::format("The file of `tunica {}`", kind.name));
+  group->require_option(0, 1);
+  command->callback([json, kinds] {
+    const auto wanted = std::find_if(kinds->begin(), kinds->end(), [](const Kind& k) { return k.wanted; });
+    const Description description = wanted == kinds->end() ? stages::Case::schema().description() : wanted->describe();
     std::fputs((*json ? config::json_schema(*description) : config::markdown(*description)).c_str(), stdout);
   });
 }

@@ -19,6 +19,34 @@ TEST_F(MeshCommand, TwoForWrongInputWhichIsReportedAtOnce) {
   EXPECT_FALSE(fs::exists(folder_ / "mesh"));
 }
 
+TEST_F(MeshCommand, ImagesAreWrittenAndWhatTheyLackIsSaid) {
+  write("scan.yaml", "scan: {voxel: 2 mm, noise: 0}\noutput: images/scan.nii.gz\n");
+  ASSERT_EQ(tunica("image scan.yaml"), 0) << printed();
+  // The section that it prints is one of a mesh file.
+  const std::string section = printed().substr(printed().find("geometry:"));
+  EXPECT_TRUE(fs::exists(folder_ / "images/scan.nii.gz"));
+  EXPECT_EQ(tunica("image scan.yaml"), 2) << "an image is there";
+
+  const auto refused = [&](const std::string& text) {
+    write("images/mesh.yaml", text);
+    EXPECT_EQ(tunica("mesh images/mesh.yaml"), 2);
+    return printed();
+  };
+  auto labels = section;
+  labels.replace(labels.find("false_lumen: 2"), 14, "false_lumen: 5");
+  EXPECT_NE(refused(labels).find("no voxel has the label 5; the image has 0, 1, 2"), std::string::npos) << printed();
+  EXPECT_NE(refused(section + "    inlet: aorta\n").find("no opening is called 'aorta'"), std::string::npos)
+      << printed();
+  const std::string opening = "    openings: {inlet: {centre: [0 m, 0 m, 1 m]}}\n";
+  EXPECT_NE(
+      refused(section.substr(0, section.find("    openings")) + opening).find("no vessel ends in a flat face within"),
+      std::string::npos)
+      << printed();
+  write("images/mesh.yaml", "geometry: {image: {file: none.nrrd, smoothing: 9}}\n");
+  EXPECT_EQ(tunica("mesh images/mesh.yaml"), 2);
+  for (const char* text : {"none.nrrd", "smoothing"}) EXPECT_NE(printed().find(text), std::string::npos) << printed();
+}
+
 TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
   const fs::path example = fs::path(TUNICA_SOURCE_DIR) / "examples/dissection";
   ASSERT_EQ(tunica(fmt::format("mesh {} -o mesh", (example / "mesh.yaml").string())), 0) << printed();

@@ -81,7 +81,7 @@ TEST(Documents, CitedEquationsExist) {
   }
   ASSERT_FALSE(equations.empty());
 
-  const std::regex comment("//.*"), citation(R"((?:[ ,]|eqs?\.? )\(([1-8]\.[0-9]{1,2})\))");
+  const std::regex comment("//.*"), citation(R"((?:[ ,]|eqs?\.? )\(([1-9]\.[0-9]{1,2})\))");
   int cited = 0;
   for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
     if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;

@@ -130,7 +130,7 @@ void expect_frames(const meshing::Size& size) {
     EXPECT_LT(joined.at("clear").mean(axis), 3) << axis;
     EXPECT_LT(joined.at("clear").share_above_30(axis), 0.2) << axis;
     EXPECT_LT(joined.at("rims").mean(axis), 5) << axis;
-    EXPECT_GT(joined.at("low confidence").share_above_30(axis), 10 * joined.at("all").share_above_30(axis)) << axis;
+    EXPECT_GT(joined.at("low confidence").share_above_30(axis), 5 * joined.at("all").share_above_30(axis)) << axis;
   }
   expect_tears_found(graph);
 }

@@ -9,37 +9,8 @@ namespace tunica::stages::meshing {
 
 namespace {
 
-using config::Problems;
 using config::Schema;
 namespace dimension = config::dimension;
-
-Schema<GrowthSettings> growth_schema() {
-  using G = GrowthSettings;
-  return Schema<G>("wall", "The wall that is grown around the lumen, thicker around wider vessels.")
-      .number("per_radius", &G::per_radius, config::range(0.02, 1), "Its thickness over the radius of the vessel")
-      .by_default()
-      .quantity("thinnest", &G::thinnest, dimension::length, config::range(0.3 * mm, 6 * mm), "Lower bound of it")
-      .by_default()
-      .quantity("thickest", &G::thickest, dimension::length, config::range(0.3 * mm, 6 * mm),
-                "Upper bound of it; equal to `thinnest` for the same thickness everywhere")
-      .by_default()
-      .quantity("fillet", &G::fillet, dimension::length, config::range(0.2 * mm, 5 * mm),
-                "Radius by which notches between vessels are rounded")
-      .by_default()
-      .quantity("true_lumen_wall", &G::true_lumen_wall, dimension::length, config::range(0.3 * mm, 6 * mm),
-                "Thickness around the true lumen, instead of the rule")
-      .optional()
-      .quantity("false_lumen_wall", &G::false_lumen_wall, dimension::length, config::range(0.3 * mm, 6 * mm),
-                "Thickness around the false lumen, instead of the rule")
-      .optional()
-      .quantity("branches", &G::branches, dimension::length, config::range(0.3 * mm, 6 * mm),
-                "Thickness around branches, instead of the rule")
-      .optional()
-      .check([](const G& g, Problems& problems) {
-        if (g.thinnest > g.thickest)
-          problems.add("thinnest", "is larger than `thickest`", "swap them, or give the same thickness twice");
-      });
-}
 
 Schema<Point> place_schema() {
   return Schema<Point>("place", "A place in a lumen.")
@@ -92,6 +63,10 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) 
   return result;
 }
 
+GeometrySurfaces from(const imaging::ImageGeometry& image, const ComplexOptions& options) {
+  return {surfaces_from_image(image, options), 1, roles_of(image)};
+}
+
 }  // namespace
 
 Schema<SurfaceFiles> SurfaceFiles::schema() {
@@ -109,7 +84,7 @@ Schema<SurfaceFiles> SurfaceFiles::schema() {
             "the inlet, and the others are called outlet_1, outlet_2, ... by falling area")
       .optional()
       .include(&F::roles, roles_schema())
-      .section("wall", &F::wall, growth_schema(), "How the wall is grown, if there is no `outer_wall`")
+      .section("wall", &F::wall, GrowthSettings::schema(), "How the wall is grown, if there is no `outer_wall`")
       .by_default();
 }
 
@@ -117,7 +92,8 @@ Schema<Geometry> geometry_schema() {
   return Schema<Geometry>("geometry", "What is meshed.")
       .one_of()
       .alternative(ParametricDissection::schema())
-      .alternative(SurfaceFiles::schema());
+      .alternative(SurfaceFiles::schema())
+      .alternative(imaging::ImageGeometry::schema());
 }
 
 GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options) {

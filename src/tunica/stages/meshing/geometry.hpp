@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "tunica/stages/imaging/image_geometry.hpp"
 #include "tunica/stages/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/parametric_dissection.hpp"
 
@@ -21,7 +22,7 @@ struct SurfaceFiles {
   static config::Schema<SurfaceFiles> schema();
 };
 
-using Geometry = std::variant<ParametricDissection, SurfaceFiles>;
+using Geometry = std::variant<ParametricDissection, SurfaceFiles, imaging::ImageGeometry>;
 config::Schema<Geometry> geometry_schema();
 
 /// Surfaces of lumen and wall, and what their openings are.

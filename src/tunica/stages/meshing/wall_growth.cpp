@@ -175,6 +175,35 @@ double rim_radius(const TriangleSurface& lumen, const Opening& opening) {
 
 }  // namespace
 
+config::Schema<GrowthSettings> GrowthSettings::schema() {
+  using G = GrowthSettings;
+  using config::Schema;
+  return Schema<G>("wall", "The wall that is grown around the lumen, thicker around wider vessels.")
+      .number("per_radius", &G::per_radius, config::range(0.02, 1), "Its thickness over the radius of the vessel")
+      .by_default()
+      .quantity("thinnest", &G::thinnest, config::dimension::length, config::range(0.3e-3, 6e-3), "Lower bound of it")
+      .by_default()
+      .quantity("thickest", &G::thickest, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Upper bound of it; equal to `thinnest` for the same thickness everywhere")
+      .by_default()
+      .quantity("fillet", &G::fillet, config::dimension::length, config::range(0.2e-3, 5e-3),
+                "Radius by which notches between vessels are rounded")
+      .by_default()
+      .quantity("true_lumen_wall", &G::true_lumen_wall, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Thickness around the true lumen, instead of the rule")
+      .optional()
+      .quantity("false_lumen_wall", &G::false_lumen_wall, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Thickness around the false lumen, instead of the rule")
+      .optional()
+      .quantity("branches", &G::branches, config::dimension::length, config::range(0.3e-3, 6e-3),
+                "Thickness around branches, instead of the rule")
+      .optional()
+      .check([](const G& g, config::Problems& problems) {
+        if (g.thinnest > g.thickest)
+          problems.add("thinnest", "is larger than `thickest`", "swap them, or give the same thickness twice");
+      });
+}
+
 std::vector<double> thickness_by_radius(const TriangleSurface& lumen, const std::vector<Opening>& openings,
                                         const GrowthSettings& settings) {
   const std::vector<double> uniform(lumen.points.size(), settings.thickest);

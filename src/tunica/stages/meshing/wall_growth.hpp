@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "tunica/config/schema.hpp"
 #include "tunica/stages/meshing/openings.hpp"
 #include "tunica/stages/meshing/triangle_surface.hpp"
 
@@ -21,6 +22,8 @@ struct GrowthSettings {
   double spacing = 0.6e-3;   ///< of the distance samples [m]; below the thickness
   /// Instead of that rule, in these regions of the wall [m].
   std::optional<double> true_lumen_wall, false_lumen_wall, branches;
+
+  static config::Schema<GrowthSettings> schema();
 };
 
 /// Wall thickness [m] at each point of a lumen surface; arguments as of `grow_wall`. The radius of a vessel is that of

@@ -1,0 +1,27 @@
+// The file of `tunica image`: an idealised dissection and how it is imaged.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tunica/config/schema.hpp"
+#include "tunica/stages/imaging/synthetic_scan.hpp"
+
+namespace tunica::stages::imaging {
+
+struct ScanCase {
+  meshing::ParametricDissection parametric;
+  ScanSettings scan;
+  std::filesystem::path output;
+
+  static config::Schema<ScanCase> schema();
+};
+
+/// Throws InputError with all problems.
+config::Parsed<ScanCase> read_scan_case(const std::filesystem::path& file);
+
+/// Writes the image and returns the section `geometry` of a file of `tunica mesh` for it, with the names of the vessel
+/// ends. InputError when the image exists and `overwrite` is false; errors of `write_label_image`.
+std::string scan_to_file(const ScanCase& scan_case, bool overwrite);
+
+}  // namespace tunica::stages::imaging
