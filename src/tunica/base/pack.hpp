@@ -119,12 +119,32 @@ TUNICA_INLINE bool any_above(const Pack<W>& x, const Pack<W>& limit) {
 
 TUNICA_INLINE double max(double a, double b) { return a > b ? a : b; }
 TUNICA_INLINE double min(double a, double b) { return a < b ? a : b; }
+
+/// The second of the two where one is NaN. One instruction; the comparison and choice by lane stay two.
 template <int W>
 TUNICA_INLINE Pack<W> max(const Pack<W>& a, const Pack<W>& b) {
+#if defined(__AVX512F__)
+  if constexpr (W == 8) return Pack<W>((typename Pack<W>::Vector)_mm512_max_pd((__m512d)a.v, (__m512d)b.v));
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4) return Pack<W>((typename Pack<W>::Vector)_mm256_max_pd((__m256d)a.v, (__m256d)b.v));
+#endif
+#if defined(__SSE2__)
+  if constexpr (W == 2) return Pack<W>((typename Pack<W>::Vector)_mm_max_pd((__m128d)a.v, (__m128d)b.v));
+#endif
   return Pack<W>(a.v > b.v ? a.v : b.v);
 }
 template <int W>
 TUNICA_INLINE Pack<W> min(const Pack<W>& a, const Pack<W>& b) {
+#if defined(__AVX512F__)
+  if constexpr (W == 8) return Pack<W>((typename Pack<W>::Vector)_mm512_min_pd((__m512d)a.v, (__m512d)b.v));
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4) return Pack<W>((typename Pack<W>::Vector)_mm256_min_pd((__m256d)a.v, (__m256d)b.v));
+#endif
+#if defined(__SSE2__)
+  if constexpr (W == 2) return Pack<W>((typename Pack<W>::Vector)_mm_min_pd((__m128d)a.v, (__m128d)b.v));
+#endif
   return Pack<W>(a.v < b.v ? a.v : b.v);
 }
 
@@ -133,7 +153,7 @@ TUNICA_INLINE Pack<W> min(const Pack<W>& a, const Pack<W>& b) {
 TUNICA_INLINE double sqrt(double x) { return __builtin_sqrt(x); }
 TUNICA_INLINE double abs(double x) { return __builtin_fabs(x); }
 inline double exp(double x) { return std::exp(x); }
-inline double exp2(double x) { return std::exp2(x); }
+inline double exp2_of_nonnegative(double x) { return std::exp2(x > 1023.0 ? 1023.0 : x); }
 inline double log(double x) { return std::log(x); }
 inline double pow(double x, double y) { return std::pow(x, y); }
 
@@ -183,31 +203,26 @@ TUNICA_INLINE Pack<W> exp(const Pack<W>& x) {
   return select<W>(x.v < -708.0, P(0.0), y);
 }
 
-/// 2^x. With f the distance to the nearest integer, 1 + f ln 2 + f^2 q(f), where q minimises the largest relative
-/// error, 3e-16 (Remez); its even and odd parts are summed side by side, for a short chain. Error below 2 ulp for
-/// -1022.5 < x < 1023.5. Larger arguments give +infinity and smaller ones 0, NaN stays NaN.
+/// 2^x for x >= 0, relative error below 2e-14: with f the distance to the nearest integer, a polynomial of degree 9 in
+/// f that minimises it (Remez). Arguments above 1023 count as 1023, NaN stays NaN.
 template <int W>
-TUNICA_INLINE Pack<W> exp2(const Pack<W>& argument) {
+TUNICA_INLINE Pack<W> exp2_of_nonnegative(const Pack<W>& argument) {
   using P = Pack<W>;
-  typename P::Vector x = argument.v;
-  x = x > 1024.0 ? typename P::Vector{} + 1024.0 : x;   // where the exponent below becomes that of infinity
-  x = x < -1023.0 ? typename P::Vector{} - 1023.0 : x;  // or of zero
-  const typename P::Vector shift = typename P::Vector{} + (0x1.8p52 + 1023.0);
-  const typename P::Vector t = x + shift;  // the low bits hold the biased exponent
-  const P f(x - (t - shift)), f2 = f * f;
-  const P even =
-      P(0.24022650695909298) +
-      f2 * (P(0.009618129107959113) +
-            f2 * (P(0.00015403529987729857) + f2 * (P(1.321566753720985e-06) + f2 * P(7.034652494917394e-09))));
-  const P odd = P(0.05550410866464009) +
-                f2 * (P(0.0013333558206101818) + f2 * (P(1.525266899129174e-05) + f2 * P(1.0206731459856183e-07)));
-  const P p = P(1.0) + (f * P(0.6931471805599453) + f2 * (even + f * odd));
-  typename P::Integers bits;
-  __builtin_memcpy(&bits, &t, sizeof bits);
-  bits <<= 52;
-  typename P::Vector scale;
-  __builtin_memcpy(&scale, &bits, sizeof scale);
-  return p * P(scale);
+  const P x = min(P(1023.0), argument);  // in this order NaN stays
+  const typename P::Vector shift = typename P::Vector{} + 0x1.8p52;
+  const typename P::Vector t = x.v + shift;  // the low bits hold the exponent
+  const P f(x.v - (t - shift));
+  P p(1.0150344092361341e-07);
+  for (double c :
+       {1.325940551832952e-06, 1.5252984798658376e-05, 0.0001540343494852222, 0.00133335576176754, 0.00961812919206659,
+        0.05550410866868515, 0.24022650695649655, 0.693147180559871, 1.0000000000000127})
+    p = p * f + P(c);
+  typename P::Integers bits, exponent;
+  __builtin_memcpy(&bits, &p.v, sizeof bits);
+  __builtin_memcpy(&exponent, &t, sizeof exponent);
+  bits += exponent << 52;
+  __builtin_memcpy(&p.v, &bits, sizeof bits);
+  return p;
 }
 
 /// Natural logarithm. Error below 2 ulp, also of subnormal numbers; -infinity for 0, +infinity for +infinity, NaN for
