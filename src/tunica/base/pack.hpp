@@ -49,7 +49,9 @@ struct Pack {
   Vector v;
 
   Pack() = default;
-  TUNICA_INLINE Pack(double value) : v(Vector{} + value) {}  // NOLINT: implicit, so that literals mix with packs
+  /// Implicit, so that literals mix with packs. Subtracting zero is no operation to the compiler, adding it would be:
+  /// -0 + 0 is 0.
+  TUNICA_INLINE Pack(double value) : v(value - Vector{}) {}  // NOLINT
   TUNICA_INLINE explicit Pack(Vector value) : v(value) {}
   TUNICA_INLINE static Pack load(const double* p) {
     Pack r;

@@ -9,11 +9,11 @@ namespace tunica::wall {
 
 namespace {
 
-/// Densities of the four images of a direction, of which the set holds `present`.
+/// A direction and the densities of its four images.
 struct Images {
   Vec3<double> N;
   std::array<double, 4> density{};
-  int present = 0;
+  std::array<bool, 4> present{};
 };
 
 Vec3<double> image(const Vec3<double>& N, int i) { return {{N[0], i > 1 ? -N[1] : N[1], i % 2 == 1 ? -N[2] : N[2]}}; }
@@ -25,30 +25,29 @@ std::vector<Images> find_images(std::span<const Vec3<double>> directions, std::s
     for (int i = 0; i < 4; ++i)
       if (const auto group = firsts.find(image(directions[n], i))) {
         groups[*group].density[i] += densities[n];
-        ++groups[*group].present;
+        groups[*group].present[i] = true;
         return true;
       }
     return false;
   };
   for (std::size_t n = 0; n < directions.size(); ++n) {
     if (known(n)) continue;
-    groups.push_back({directions[n], {densities[n], 0.0, 0.0, 0.0}, 1});
+    groups.push_back({directions[n], {densities[n]}, {true}});
     firsts.add(directions[n]);
   }
   return groups;
 }
 
-/// From the image `first` of a direction on.
 template <int images>
-FibreGroup<images> make_group(const Images& of, int first) {
-  const Vec3<double> N = image(of.N, first);
+FibreGroup<images> make_group(const Images& of) {
+  const Vec3<double>& N = of.N;
   FibreGroup<images> group;
   double* NN = group.products;
   for (int v = 0; v < voigt_size; ++v) NN[v] = N[voigt_row[v]] * N[voigt_column[v]];
   double* next = NN + voigt_size;
   for (int row = 0; row < 3; ++row)
     for (int v = row; v < voigt_size; ++v) *next++ = NN[row] * NN[v];
-  for (int i = 0; i < images; ++i) group.density[i] = of.density[first + i];
+  for (int i = 0; i < images; ++i) group.density[i] = of.density[i];
   return group;
 }
 
@@ -58,13 +57,10 @@ FibreBundle FibreBundle::make(const FibreEnergy& energy, std::span<const Vec3<do
                               std::span<const double> densities) {
   FibreBundle bundle{energy, {}, {}, directions.size()};
   for (const Images& images : find_images(directions, densities)) {
-    if (images.present > 2) {
-      bundle.fours.push_back(make_group<4>(images, 0));
-      continue;
-    }
-    for (const int first : {0, 2})
-      if (images.density[first] != 0.0 || images.density[first + 1] != 0.0)
-        bundle.pairs.push_back(make_group<2>(images, first));
+    if (images.present[2] || images.present[3])
+      bundle.fours.push_back(make_group<4>(images));
+    else
+      bundle.pairs.push_back(make_group<2>(images));
   }
   return bundle;
 }

@@ -105,9 +105,9 @@ struct FibreScales {
 /// At most one chunk of groups, with those left out that pull in no lane.
 template <class T, int images>
 struct FibreChunk {
-  static constexpr int size = 64 / images;
-  T strain[size][images];                          ///< scaled by FibreScales::root
-  T slope[size][images], curvature[size][images];  ///< combinations of the images, without the common factors
+  static constexpr int size = 128 / images;  // 16 KiB of AVX-512, half of the first cache
+  T slope[size][images];      ///< strains scaled by FibreScales::root, then combinations of the slopes
+  T curvature[size][images];  ///< combinations of the images, as the slopes without the common factors
   const FibreGroup<images>* group[size];
   int count;
 
@@ -118,13 +118,13 @@ struct FibreChunk {
       const T diagonal = scales.C[0] * T(NN[0]) + (scales.C[1] * T(NN[1]) + (scales.C[2] * T(NN[2]) - T(scales.root)));
       if constexpr (images == 4) {
         const T parts[4] = {diagonal, scales.C[3] * T(NN[3]), scales.C[4] * T(NN[4]), scales.C[5] * T(NN[5])};
-        combine_images(parts, strain[count]);
+        combine_images(parts, slope[count]);
       } else {
         const T parts[2] = {diagonal + scales.C[3] * T(NN[3]), scales.C[4] * T(NN[4]) + scales.C[5] * T(NN[5])};
-        combine_images(parts, strain[count]);
+        combine_images(parts, slope[count]);
       }
-      T largest = max(strain[count][0], strain[count][1]);
-      if constexpr (images == 4) largest = max(largest, max(strain[count][2], strain[count][3]));
+      T largest = max(slope[count][0], slope[count][1]);
+      if constexpr (images == 4) largest = max(largest, max(slope[count][2], slope[count][3]));
       group[count] = first + i;
       count += any_above(largest, T(scales.pulling)) ? 1 : 0;
     }
@@ -138,7 +138,7 @@ struct FibreChunk {
       T f[images], ff[images];
 #pragma GCC unroll 4
       for (int image = 0; image < images; ++image) {
-        const T E = strain[i][image], exponent = E * E;
+        const T E = slope[i][image], exponent = E * E;
         const T scaled = select(E > pulling, T(group[i]->density[image]) * exp2_of_nonnegative(exponent), zero);
         f[image] = scaled * E;
         if constexpr (with_curvature) ff[image] = scaled * (T(1.0) + twice_ln2 * exponent);
@@ -201,13 +201,13 @@ struct DiscreteFibres {
   template <class T>
   TUNICA_INLINE Response<T> response(const Symmetric<T>& C) const {
     constexpr int entry[21] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 1, 10, 4, 7, 12, 2};
-    Response<T> r;
-    for (T& x : r.stress.v) x = T(0.0);
-    for (T& x : r.tangent.v) x = T(0.0);
+    Response<T> r = zero_response<T>();
     for (const FibreBundle& bundle : bundles) {
       T sums[21];
       const auto scales = sum<T, true>(bundle, C, sums);
+#pragma GCC unroll 6
       for (int n = 0; n < voigt_size; ++n) r.stress[n] += T(scales.stress) * sums[n];
+#pragma GCC unroll 21
       for (int n = 0; n < 21; ++n) r.tangent.v[n] += T(scales.tangent) * sums[6 + entry[n]];
     }
     return r;
@@ -223,7 +223,8 @@ struct DiscreteFibres {
   /// The sums of stress and tangent over a bundle, and what they are to be multiplied by.
   template <class T, bool with_tangent>
   TUNICA_INLINE detail::FibreScales<T> sum(const FibreBundle& bundle, const Symmetric<T>& C, T (&sums)[21]) const {
-    for (T& x : sums) x = T(0.0);
+#pragma GCC unroll 21
+    for (int n = 0; n < 21; ++n) sums[n] = T(0.0);
     const detail::FibreScales<T> scales(bundle.energy, C, tension_only);
     sum_groups<T, with_tangent, 4>(bundle.fours, scales, sums);
     sum_groups<T, with_tangent, 2>(bundle.pairs, scales, sums);
