@@ -106,8 +106,8 @@ struct FibreScales {
 template <class T, int images>
 struct FibreChunk {
   static constexpr int size = 128 / images;  // 16 KiB of AVX-512, half of the first cache
-  T slope[size][images];      ///< strains scaled by FibreScales::root, then combinations of the slopes
-  T curvature[size][images];  ///< combinations of the images, as the slopes without the common factors
+  T slope[size][images];                     ///< strains scaled by FibreScales::root, then combinations of the slopes
+  T curvature[size][images];                 ///< combinations of the images, as the slopes without the common factors
   const FibreGroup<images>* group[size];
   int count;
 
