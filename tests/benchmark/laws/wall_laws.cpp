@@ -107,9 +107,9 @@ std::size_t directions(const wall::Law& law) {
   return l == nullptr ? 0 : l->fibres.directions();
 }
 
-// Floating-point operations of one direction: 12 of the strain, 32 of the exponential and what is made of it, 12 of the
-// stress, 33 of the tangent.
-constexpr double operations_per_direction = 89.0;
+// Floating-point operations of one direction in a group of four: 4 of the strain, 23 of the exponential, 5 of slope and
+// curvature, 4 of their combinations, 11 of the sums.
+constexpr double operations_per_direction = 47.0;
 
 void points(const std::vector<Candidate>& list, assembly::Isa isa) {
   constexpr int count = 512, repetitions = 10;
