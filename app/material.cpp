@@ -25,7 +25,8 @@ void add_material(CLI::App& app) {
       "    sheet: {biaxial: {to: 1.2, ratio: 0.5}}\n"
       "    shear: {simple_shear: {along: e1, across: e3, to: 0.5}}\n"
       "    points: {gradients: {list: [[1.1, 0.1, 0, 0, 1, 0, 0, 0, 0.91]]}}\n"
-      "Each test writes <name>.csv (F, J, Psi, stresses, tangent) and <name>.svg. Measured points are drawn over the\n"
+      "Each test writes <name>.csv (F, J, Psi, stresses, tangent) and <name>.svg, or <name>.png\n"
+      "with `output: {plots: png}`. Measured points are drawn over the\n"
       "curve with `data: {file: pull.csv, load: stretch, stress: force per area, unit: kPa}`.");
   const auto file = std::make_shared<std::string>(), directory = std::make_shared<std::string>();
   command->add_option("file", *file, "The material file")->required();

@@ -8,7 +8,7 @@
 namespace tunica::app {
 
 void add_plot(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("plot", "Draw columns of a run's history (.csv) as curves (.svg)");
+  CLI::App* command = app.add_subcommand("plot", "Draw columns of a run's history (.csv) as curves (.svg, .png)");
   command->footer(
       "A name chooses all columns whose header contains it. Example:\n"
       "  tunica plot results/faces.csv pressure -o pressure.svg");
@@ -17,7 +17,7 @@ void add_plot(CLI::App& app) {
       ->required();
   command->add_option("columns", options->columns, "Columns to draw")->required();
   command->add_option("-x", options->x, "Column along the axis")->capture_default_str();
-  command->add_option("-o,--output", options->output, "The plot, ending in .svg")->required();
+  command->add_option("-o,--output", options->output, "The plot, ending in .svg or .png")->required();
   command->add_option("--title", options->title, "Text above the plot");
   command->callback([options] {
     for (const auto& name : stages::plot_history(*options)) std::printf("%s\n", name.c_str());

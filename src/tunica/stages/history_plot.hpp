@@ -11,7 +11,7 @@ struct HistoryPlotOptions {
   std::filesystem::path history;     ///< a .csv of a run: one header line, then numbers
   std::vector<std::string> columns;  ///< each draws all columns whose header contains it
   std::string x = "time";            ///< the first column whose header contains this
-  std::filesystem::path output;      ///< .svg
+  std::filesystem::path output;      ///< .svg or .png
   std::string title{};
 };
 

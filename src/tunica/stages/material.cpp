@@ -188,7 +188,7 @@ class TestReport {
     } else {
       draw(compare());
     }
-    std::fprintf(screen_, "  %s, %s\n", file(".csv").c_str(), file(".svg").c_str());
+    std::fprintf(screen_, "  %s, %s\n", file(".csv").c_str(), file(case_.output.plot_ending()).c_str());
   }
 
  private:
@@ -315,7 +315,7 @@ class TestReport {
       if (second) series.push_back({.name = "across", .x = curve_.loads, .y = drawn(true), .dashed = true});
     }
     series.insert(series.end(), more.begin(), more.end());
-    write_plot(file(".svg"), series, plot);
+    write_plot(file(case_.output.plot_ending()), series, plot);
   }
 
   const MaterialCase& case_;

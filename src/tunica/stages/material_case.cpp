@@ -173,6 +173,9 @@ Schema<MaterialOutput> output_schema() {
       .by_default("results")
       .text("stress", &MaterialOutput::stress, "Unit of stresses, tangents and energy densities")
       .by_default()
+      .choice("plots", &MaterialOutput::plots, {{"svg", PlotFormat::svg}, {"png", PlotFormat::png}},
+              "Format of the plots")
+      .by_default()
       .check([](const MaterialOutput& o, Problems& problems) {
         const auto factor = config::parse_unit(o.stress, dimension::pressure);
         if (const auto* error = std::get_if<config::UnitError>(&factor))
@@ -187,7 +190,8 @@ void check_case(const MaterialCase& c, Problems& problems) {
   if (c.tests.empty()) problems.add("tests", "is empty", "add one, such as `pull: {uniaxial: {to: 1.2}}`");
   for (const auto& [name, test] : c.tests)
     if (name.empty() || name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
-      problems.add("tests." + name, "is no name of a file", "the results are <name>.csv and <name>.svg");
+      problems.add("tests." + name, "is no name of a file",
+                   "the results are <name>.csv and a plot <name>.svg or <name>.png");
 }
 
 }  // namespace
@@ -222,7 +226,8 @@ Schema<MaterialCase> MaterialCase::schema() {
       .include(&MaterialCase::volumetric_energy, wall::volumetric_energy_schema())
       .flag("incompressible", &MaterialCase::incompressible,
             "true: the volume is kept whatever the bulk modulus. When left out, the bulk modulus decides")
-      .map("tests", &MaterialCase::tests, test_schema(), "Tests by name; each writes `<name>.csv` and `<name>.svg`")
+      .map("tests", &MaterialCase::tests, test_schema(),
+           "Tests by name; each writes a table `<name>.csv` and a plot `<name>.svg`")
       .section("output", &MaterialCase::output, output_schema(), "Results")
       .by_default()
       .check(check_case);

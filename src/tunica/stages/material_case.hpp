@@ -77,9 +77,15 @@ struct MaterialTest {
   std::optional<MeasuredData> data;
 };
 
+enum class PlotFormat { svg, png };
+
 struct MaterialOutput {
   std::filesystem::path directory;
   std::string stress = "kPa";
+  PlotFormat plots = PlotFormat::svg;
+
+  /// The ending of the files of plots.
+  const char* plot_ending() const { return plots == PlotFormat::png ? ".png" : ".svg"; }
 };
 
 struct MaterialCase {

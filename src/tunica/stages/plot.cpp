@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "tunica/base/error.hpp"
+#include "tunica/stages/svg_image.hpp"
 
 namespace tunica::stages {
 namespace {
@@ -268,8 +269,11 @@ std::string draw_plot(const std::vector<Series>& series, const PlotOptions& opti
 }
 
 void write_plot(const std::string& file, const std::vector<Series>& series, const PlotOptions& options) {
+  const std::string svg = draw_plot(series, options);
+  if (file.ends_with(".png")) return write_png(file, svg, png_scale);
+  if (!file.ends_with(".svg")) throw InputError(file, "is no name of a plot", "let it end in .svg or .png");
   std::ofstream stream(file);
-  stream << draw_plot(series, options);
+  stream << svg;
   stream.close();
   if (!stream) throw InputError(file, "cannot be written", "check that the folder exists and is writable");
 }

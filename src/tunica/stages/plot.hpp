@@ -1,4 +1,4 @@
-// Line plots as SVG text: histories of a run, curves of a verification.
+// Line plots as SVG text, or PNG rendered from it: histories of a run, curves of a verification.
 #pragma once
 
 #include <string>
@@ -24,11 +24,14 @@ struct PlotOptions {
   int width = 720, height = 440;  ///< pixels
 };
 
+inline constexpr int png_scale = 2;
+
 /// The plot as an SVG document. Axes span all finite points, widened to round numbers in y. Throws InputError if a
 /// series has x and y of different length or there is no point to draw.
 std::string draw_plot(const std::vector<Series>& series, const PlotOptions& options);
 
-/// Writes `draw_plot` to a file. Throws InputError if it cannot be written.
+/// Writes `draw_plot` to a file: ending in .svg as it is, in .png rendered with `png_scale` pixels for one of the
+/// options. Throws InputError if the name ends in something else or the file cannot be written.
 void write_plot(const std::string& file, const std::vector<Series>& series, const PlotOptions& options);
 
 /// Positions of labels on an axis within [low, high]: three to nine multiples of 1, 2 or 5 times a power of ten; on a

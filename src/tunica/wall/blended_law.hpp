@@ -22,20 +22,21 @@ namespace detail {
 
 /// S_bar = 2 dPsi/dC_bar of any law of the list.
 template <class T>
-__attribute__((noinline)) void evaluate_stress(const Law& law, const Symmetric<T>& C_bar, Symmetric<T>& S) {
-  std::visit([&](const auto& l) { S = stress(l, C_bar); }, law);
+__attribute__((noinline)) Symmetric<T> evaluate_stress(const Law& law, const Symmetric<T>& C_bar) {
+  return std::visit([&](const auto& l) { return stress(l, C_bar); }, law);
 }
 
 /// S_bar and CC_bar of any law of the list.
 template <class T>
-__attribute__((noinline)) void evaluate_response(const Law& law, const Symmetric<T>& C_bar, Response<T>& r) {
-  std::visit(
+__attribute__((noinline)) Response<T> evaluate_response(const Law& law, const Symmetric<T>& C_bar) {
+  return std::visit(
       [&](const auto& l) {
         if constexpr (is_linear<std::decay_t<decltype(l)>>) {
+          Response<T> r = zero_response<T>();
           r.stress = stress(l, C_bar);
-          for (T& x : r.tangent.v) x = T(0.0);
+          return r;
         } else {
-          r = response(l, C_bar);
+          return response(l, C_bar);
         }
       },
       law);
@@ -53,16 +54,17 @@ void visit_unsplit(const Law& law, const Visitor& visitor) {
 }
 
 template <class T>
-__attribute__((noinline)) void evaluate_unsplit_stress(const Law& law, const Symmetric<T>& C, Symmetric<T>& S) {
-  for (T& x : S.v) x = T(0.0);
+__attribute__((noinline)) Symmetric<T> evaluate_unsplit_stress(const Law& law, const Symmetric<T>& C) {
+  Symmetric<T> S = zero_response<T>().stress;
   visit_unsplit(law, [&](const auto& l) { S = l.unsplit_stress(C); });
+  return S;
 }
 
 template <class T>
-__attribute__((noinline)) void evaluate_unsplit_response(const Law& law, const Symmetric<T>& C, Response<T>& r) {
-  for (T& x : r.stress.v) x = T(0.0);
-  for (T& x : r.tangent.v) x = T(0.0);
+__attribute__((noinline)) Response<T> evaluate_unsplit_response(const Law& law, const Symmetric<T>& C) {
+  Response<T> r = zero_response<T>();
   visit_unsplit(law, [&](const auto& l) { r = l.unsplit_response(C); });
+  return r;
 }
 
 }  // namespace detail
@@ -81,10 +83,10 @@ struct BlendedLaw {
     return sum_of([&](const Law& law) { return std::visit([&](const auto& l) { return l.energy(C_bar); }, law); });
   }
   Symmetric<T> stress(const Symmetric<T>& C_bar) const {
-    return stress_of([&](const Law& law, Symmetric<T>& S) { detail::evaluate_stress(law, C_bar, S); });
+    return stress_of([&](const Law& law) { return detail::evaluate_stress(law, C_bar); });
   }
   Response<T> response(const Symmetric<T>& C_bar) const {
-    return response_of([&](const Law& law, Response<T>& r) { detail::evaluate_response(law, C_bar, r); });
+    return response_of([&](const Law& law) { return detail::evaluate_response(law, C_bar); });
   }
 
  protected:
@@ -103,26 +105,21 @@ struct BlendedLaw {
   }
   template <class Evaluate>
   TUNICA_INLINE Symmetric<T> stress_of(const Evaluate& evaluate) const {
-    Symmetric<T> sum;
-    evaluate(*laws[0], sum);
+    Symmetric<T> sum = evaluate(*laws[0]);
     if (weights == nullptr) return sum;
     sum = weight(0) * sum;
     for (std::size_t i = 1; i < laws.size(); ++i) {
-      Symmetric<T> S;
-      evaluate(*laws[i], S);
-      sum = sum + weight(i) * S;
+      sum = sum + weight(i) * evaluate(*laws[i]);
     }
     return sum;
   }
   template <class Evaluate>
   TUNICA_INLINE Response<T> response_of(const Evaluate& evaluate) const {
-    Response<T> sum;
-    evaluate(*laws[0], sum);
+    Response<T> sum = evaluate(*laws[0]);
     if (weights == nullptr) return sum;
     scale(sum, weight(0));
     for (std::size_t i = 1; i < laws.size(); ++i) {
-      Response<T> r;
-      evaluate(*laws[i], r);
+      Response<T> r = evaluate(*laws[i]);
       scale(r, weight(i));
       sum.stress = sum.stress + r.stress;
       for (int n = 0; n < 21; ++n) sum.tangent.v[n] += r.tangent.v[n];
@@ -148,10 +145,10 @@ struct UnsplitBlendedLaw : BlendedLaw<T> {
     });
   }
   Symmetric<T> unsplit_stress(const Symmetric<T>& C) const {
-    return this->stress_of([&](const Law& law, Symmetric<T>& S) { detail::evaluate_unsplit_stress(law, C, S); });
+    return this->stress_of([&](const Law& law) { return detail::evaluate_unsplit_stress(law, C); });
   }
   Response<T> unsplit_response(const Symmetric<T>& C) const {
-    return this->response_of([&](const Law& law, Response<T>& r) { detail::evaluate_unsplit_response(law, C, r); });
+    return this->response_of([&](const Law& law) { return detail::evaluate_unsplit_response(law, C); });
   }
 };
 

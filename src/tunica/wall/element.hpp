@@ -241,75 +241,76 @@ TUNICA_INLINE void complete_by_translation(fe::ElementMatrix<T>& m) {
     for (int j = 0; j < 3; ++j) m.k[0][0][i][j] = -(m.k[1][0][i][j] + m.k[2][0][i][j] + m.k[3][0][i][j]);
 }
 
-/// Variation of the strain with the motion of nodes 1..3, B_a,i = sym(grad_X N_a (x) F_i) [node][direction][Voigt],
-/// with shear counted twice.
+/// w (CC' + CC_u), CC' = J^(-4/3) CC_bar. Either of the two may be null.
 template <class T>
-struct StrainVariation {
-  T B[3][3][voigt_size];
-};
-
-template <class T>
-TUNICA_INLINE StrainVariation<T> strain_variation(const ElementState<T>& e, const Kinematics<T>& k) {
-  StrainVariation<T> v;
-#pragma GCC unroll 3
-  for (int a = 0; a < 3; ++a)
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      const Vec3<T>& dN = e.reference.dN[a + 1];
-#pragma GCC unroll 3
-      for (int n = 0; n < 3; ++n) v.B[a][i][n] = dN[n] * k.F(i, n);
-#pragma GCC unroll 3
-      for (int n = 3; n < voigt_size; ++n) {
-        const int p = voigt_row[n], q = voigt_column[n];
-        v.B[a][i][n] = dN[p] * k.F(i, q) + dN[q] * k.F(i, p);
-      }
-    }
-  return v;
+TUNICA_INLINE SymmetricTangent<T> material_tangent(const Kinematics<T>& k, const SymmetricTangent<T>* CC_bar,
+                                                   const Response<T>* unsplit, const T& weight) {
+  SymmetricTangent<T> CC;
+  const T pull = weight * k.scale * k.scale;
+#pragma GCC unroll 21
+  for (int n = 0; n < 21; ++n) {
+    CC.v[n] = CC_bar != nullptr ? pull * CC_bar->v[n] : T(0.0);
+    if (unsplit != nullptr) CC.v[n] += weight * unsplit->tangent.v[n];
+  }
+  return CC;
 }
 
-/// J^(-2/3) (B_a,i - (1/3) grad_x N_a,i C), the variation of half of C_bar. The factor absorbs the J^(-4/3) that
-/// pulls CC_bar back to C.
+/// Adds B_a,i : CC : B_b,j with the variations of the strain, B_a,i = sym(grad_X N_a (x) F_i), as
+/// F_iI (grad_X N_a,J CC_IJKL grad_X N_b,L) F_jK; for nodes 1..3, upper triangle of node blocks.
 template <class T>
-TUNICA_INLINE StrainVariation<T> isochoric_variation(const Kinematics<T>& k, const StrainVariation<T>& whole) {
-  StrainVariation<T> v;
-#pragma GCC unroll 3
-  for (int a = 0; a < 3; ++a)
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      const T third = T(1.0 / 3.0) * k.dN_x[a + 1][i];
-#pragma GCC unroll 6
-      for (int n = 0; n < voigt_size; ++n)
-        v.B[a][i][n] = k.scale * whole.B[a][i][n] - T(n < 3 ? 1.0 : 2.0) * third * k.C_bar[n];
-    }
-  return v;
-}
-
-/// Adds w B_a : CC : B_b for nodes 1..3, upper triangle of node blocks.
-template <class T>
-TUNICA_INLINE void add_material_tangent(const StrainVariation<T>& v, const SymmetricTangent<T>& CC, const T& weight,
+TUNICA_INLINE void add_material_tangent(const ElementState<T>& e, const Mat3<T>& F, const SymmetricTangent<T>& CC,
                                         fe::ElementMatrix<T>& m) {
 #pragma GCC unroll 3
-  for (int b = 0; b < 3; ++b)
-#pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j) {
-      T D[voigt_size];
+  for (int b = 1; b < fe::nodes; ++b) {
+    const Vec3<T>& dN_b = e.reference.dN[b];
+    T column[voigt_size][3];  // CC_IJKL grad_X N_b,L, [IJ][K]
 #pragma GCC unroll 6
-      for (int n = 0; n < voigt_size; ++n) {
-        T sum = CC(n, 0) * v.B[b][j][0];
-#pragma GCC unroll 6
-        for (int o = 1; o < voigt_size; ++o) sum += CC(n, o) * v.B[b][j][o];
-        D[n] = weight * sum;
-      }
+    for (int n = 0; n < voigt_size; ++n)
 #pragma GCC unroll 3
-      for (int a = 0; a <= b; ++a)
+      for (int i = 0; i < 3; ++i)
+        column[n][i] = CC(n, voigt_index[i][0]) * dN_b[0] + CC(n, voigt_index[i][1]) * dN_b[1] +
+                       CC(n, voigt_index[i][2]) * dN_b[2];
 #pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          T sum = v.B[a][i][0] * D[0];
-#pragma GCC unroll 6
-          for (int n = 1; n < voigt_size; ++n) sum += v.B[a][i][n] * D[n];
-          m.k[a + 1][b + 1][i][j] += sum;
+    for (int a = 1; a <= b; ++a) {
+      const Vec3<T>& dN_a = e.reference.dN[a];
+      Mat3<T> G;
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+        for (int j = a == b ? i : 0; j < 3; ++j) {
+          G(i, j) = dN_a[0] * column[voigt_index[i][0]][j] + dN_a[1] * column[voigt_index[i][1]][j] +
+                    dN_a[2] * column[voigt_index[i][2]][j];
+          if (a == b) G(j, i) = G(i, j);
+        }
+      const Mat3<T> FG = F * G;
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+        for (int j = a == b ? i : 0; j < 3; ++j) {
+          const T sum = FG(i, 0) * F(j, 0) + FG(i, 1) * F(j, 1) + FG(i, 2) * F(j, 2);
+          m.k[a][b][i][j] += sum;
+          if (a == b && i != j) m.k[a][b][j][i] += sum;
         }
     }
+  }
+}
+
+/// The isochoric projection of CC_bar, as an addition to q_a and to the factor of g_a,i g_b,j:
+///   (B_a,i - g_a,i C/3) : CC' : (B_b,j - g_b,j C/3) = B_a,i : CC' : B_b,j - (g_a,i h_b,j + h_a,i g_b,j)/3
+///                                                    + g_a,i g_b,j (C : CC' : C)/9,   h_a = F (CC' : C) grad_X N_a.
+template <class T>
+TUNICA_INLINE void add_isochoric_projection(const ElementState<T>& e, const Kinematics<T>& k,
+                                            const SymmetricTangent<T>& CC_bar, const T& weight, T& rank_one,
+                                            Vec3<T> (&q)[fe::nodes]) {
+  Symmetric<T> row;
+#pragma GCC unroll 6
+  for (int n = 0; n < voigt_size; ++n)
+    row[n] = CC_bar(n, 0) * k.C_bar[0] + CC_bar(n, 1) * k.C_bar[1] + CC_bar(n, 2) * k.C_bar[2] +
+             T(2.0) * (CC_bar(n, 3) * k.C_bar[3] + CC_bar(n, 4) * k.C_bar[4] + CC_bar(n, 5) * k.C_bar[5]);
+  rank_one += T(1.0 / 9.0) * weight * double_dot(row, k.C_bar);
+  row = T(0.5) * k.scale * row;
+#pragma GCC unroll 3
+  for (int a = 1; a < fe::nodes; ++a) q[a] = q[a] + k.F * (row * e.reference.dN[a]);
 }
 
 /// Adds the force V F S_u grad_X N_a of a stress outside the isochoric split.
@@ -329,23 +330,26 @@ TUNICA_INLINE void add_unsplit_residual(const ElementState<T>& e, const Kinemati
 
 /// Velocity block of the tangent: c_u V d(P grad_X N_a)_i / du_b,j plus the mass. With kappa = J dpi/dJ,
 ///   k_ab,ij = delta_ij s_b.grad_X N_a + (theta - pi) g_a,j g_b,i + (2/3 theta + kappa) g_a,i g_b,j
-///             - 2/3 (g_a,i q_b,j + q_a,i g_b,j) + B_a,i : CC' : B_b,j,      g_a = grad_x N_a.
+///             - 2/3 (g_a,i q_b,j + q_a,i g_b,j) + B'_a,i : CC' : B'_b,j,
+/// g_a = grad_x N_a and B'_a,i = sym(grad_X N_a (x) F_i) - g_a,i C/3.
 /// It is the standard isochoric split (Holzapfel 2000, eq. 6.168) contracted by hand: the geometric stiffness of the
 /// isotropic stress cancels against the C^-1 (.) C^-1 terms. A part outside the split adds
-///   delta_ij grad_X N_b . S_u grad_X N_a + B_a,i : CC_u : B_b,j  with the whole strain variation.
+///   delta_ij grad_X N_b . S_u grad_X N_a + B_a,i : CC_u : B_b,j  without the projection.
 /// `CC_bar` and `unsplit` may be null.
 template <class T>
 TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T>& k, const Stress<T>& s,
                                     const SymmetricTangent<T>* CC_bar, const Response<T>* unsplit, const T& kappa,
                                     const T& density, const Coefficients& c, fe::ElementMatrix<T>& m) {
   const T weight = T(c.displacement) * e.reference.volume;
-  const T swap = weight * (s.theta - s.pi), rank_one = weight * (T(2.0 / 3.0) * s.theta + kappa);
-  const T cross_weight = weight * T(-2.0 / 3.0);
+  const T swap = weight * (s.theta - s.pi), cross_weight = weight * T(-2.0 / 3.0);
+  T rank_one = weight * (T(2.0 / 3.0) * s.theta + kappa);
+  Vec3<T> q[fe::nodes] = {s.q[0], s.q[1], s.q[2], s.q[3]};
+  if (CC_bar != nullptr) add_isochoric_projection(e, k, *CC_bar, weight, rank_one, q);
 #pragma GCC unroll 3
   for (int b = 1; b < fe::nodes; ++b) {
     const Vec3<T>& g_b = k.dN_x[b];
     const Vec3<T> cross_b = cross_weight * g_b, swap_b = swap * g_b;
-    const Vec3<T> first = rank_one * g_b + cross_weight * s.q[b];
+    const Vec3<T> first = rank_one * g_b + cross_weight * q[b];
     Vec3<T> s_b = s.s[b];
     if (unsplit != nullptr) s_b = s_b + unsplit->stress * e.reference.dN[b];
 #pragma GCC unroll 3
@@ -356,17 +360,14 @@ TUNICA_INLINE void momentum_tangent(const ElementState<T>& e, const Kinematics<T
       for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) {
-          T sum = g_a[i] * first[j] + s.q[a][i] * cross_b[j] + g_a[j] * swap_b[i];
+          T sum = g_a[i] * first[j] + q[a][i] * cross_b[j] + g_a[j] * swap_b[i];
           if (i == j) sum += diagonal;
           m.k[a][b][i][j] = sum;
         }
     }
   }
-  if (CC_bar != nullptr || unsplit != nullptr) {
-    const StrainVariation<T> whole = strain_variation(e, k);
-    if (CC_bar != nullptr) add_material_tangent(isochoric_variation(k, whole), *CC_bar, weight, m);
-    if (unsplit != nullptr) add_material_tangent(whole, unsplit->tangent, weight, m);
-  }
+  if (CC_bar != nullptr || unsplit != nullptr)
+    add_material_tangent(e, k.F, material_tangent(k, CC_bar, unsplit, weight), m);
 #pragma GCC unroll 3
   for (int b = 1; b < fe::nodes; ++b)
 #pragma GCC unroll 3

@@ -32,6 +32,16 @@ struct Response {
   SymmetricTangent<T> tangent;
 };
 
+template <class T>
+TUNICA_INLINE Response<T> zero_response() {
+  Response<T> r;
+#pragma GCC unroll 6
+  for (T& x : r.stress.v) x = T(0.0);
+#pragma GCC unroll 21
+  for (T& x : r.tangent.v) x = T(0.0);
+  return r;
+}
+
 /// A law: its energy for every scalar type, and the shear modulus at rest [Pa], which scales the stabilisation.
 template <class Law>
 concept Material = requires(const Law& law, const Symmetric<double>& C_bar, const Symmetric<Pack<4>>& batch) {

@@ -73,21 +73,29 @@ TUNICA_INLINE Mat3<T> full(const Symmetric<T>& a) {
 
 /// |F F A F F|^2 of a material tangent A pushed forward, from C = F^T F: A_IJKL A_MNPQ C_IM C_JN C_KP C_LQ.
 template <class T>
-inline T squared_norm(const SymmetricTangent<T>& A, const Symmetric<T>& C) {
-  T mixed[voigt_size][voigt_size];  // A_IJPQ C_PM C_QN, columns counted as often as they occur
-  for (int m = 0; m < voigt_size; ++m)
+TUNICA_INLINE T squared_norm(const SymmetricTangent<T>& A, const Symmetric<T>& C) {
+  T pull[voigt_size][voigt_size];  // C_PM C_QN, symmetric in PQ, rows and columns counted as often as they occur
+#pragma GCC unroll 6
+  for (int k = 0; k < voigt_size; ++k)
+#pragma GCC unroll 6
     for (int n = 0; n < voigt_size; ++n) {
-      T sum(0.0);
-      for (int k = 0; k < voigt_size; ++k) {
-        const int p = voigt_row[k], q = voigt_column[k], i = voigt_row[n], j = voigt_column[n];
-        const auto at = [&](int a, int b) { return C[voigt_index[a][b]]; };
-        const T both = at(p, i) * at(q, j) + at(p, j) * at(q, i);
-        sum += T((k < 3 ? 0.5 : 1.0) * (n < 3 ? 1.0 : 2.0)) * A(m, k) * both;
-      }
-      mixed[m][n] = sum;
+      const int p = voigt_row[k], q = voigt_column[k], i = voigt_row[n], j = voigt_column[n];
+      const auto at = [&](int a, int b) { return C[voigt_index[a][b]]; };
+      pull[k][n] = T((k < 3 ? 0.5 : 1.0) * (n < 3 ? 1.0 : 2.0)) * (at(p, i) * at(q, j) + at(p, j) * at(q, i));
+    }
+  T mixed[voigt_size][voigt_size];  // A_IJPQ C_PM C_QN
+#pragma GCC unroll 6
+  for (int m = 0; m < voigt_size; ++m)
+#pragma GCC unroll 6
+    for (int n = 0; n < voigt_size; ++n) {
+      mixed[m][n] = A(m, 0) * pull[0][n];
+#pragma GCC unroll 6
+      for (int k = 1; k < voigt_size; ++k) mixed[m][n] += A(m, k) * pull[k][n];
     }
   T squared(0.0);
+#pragma GCC unroll 6
   for (int m = 0; m < voigt_size; ++m)
+#pragma GCC unroll 6
     for (int n = 0; n < voigt_size; ++n) squared += mixed[m][n] * mixed[n][m];
   return squared;
 }

@@ -10,6 +10,10 @@ TEST_F(Program, MaterialTestsADeformedLaw) {
   EXPECT_EQ(tunica("material sound.yaml --output here"), 0) << printed();
   EXPECT_NE(read("here/pull.csv").find("sigma11 [kPa]"), std::string::npos);
   EXPECT_NE(read("here/pull.svg").find("<svg"), std::string::npos);
+  std::ofstream(folder_ / "image.yaml") << law << "tests: {pull: {uniaxial: {to: 1.2}}}\noutput: {plots: png}\n";
+  EXPECT_EQ(tunica("material image.yaml --output images"), 0) << printed();
+  EXPECT_EQ(read("images/pull.png").substr(1, 3), "PNG");
+  EXPECT_EQ(read("images/pull.svg"), "");
   std::ofstream(folder_ / "wrong.yaml") << law << "tests: {pull: {uniaxial: {to: 1.2 kPa}}}\n";
   EXPECT_EQ(tunica("material wrong.yaml"), 2) << printed();
   EXPECT_EQ(tunica("material"), 2);

@@ -1,12 +1,16 @@
 #include "tunica/base/pack.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <string>
 #include <type_traits>
+
+#include "power_of_two.hpp"
 
 namespace tunica {
 namespace {
@@ -143,6 +147,60 @@ TYPED_TEST(EveryWidth, ExponentialOfSpecialValues) {
   EXPECT_EQ(exp(P(-1e300))[1], 0.0);
   EXPECT_EQ(exp(P(-708.1))[1], 0.0);
   EXPECT_TRUE(std::isnan(exp(P(nan))[0]));
+}
+
+/// `power(x, y)` sets y = 2^x for W numbers at once.
+template <int W, class Power>
+void expect_power_of_two(const Power& power) {
+  double x[W], y[W], worst = 0.0;
+  std::mt19937 engine(5);
+  const auto compare = [&] {
+    power(x, y);
+    for (int l = 0; l < W; ++l) worst = std::fmax(worst, std::fabs(y[l] / std::exp2(x[l]) - 1.0));
+  };
+  for (double range : {1023.0, 30.0, 1.0, 1e-3, 1e-300}) {
+    std::uniform_real_distribution<double> uniform(0.0, range);
+    for (int i = 0; i < 4000; ++i) {
+      for (double& value : x) value = uniform(engine);
+      compare();
+    }
+  }
+  for (double value : {0.0, 0.5, 1.0, 1.0 / 16, 3.0 / 16, std::nextafter(0.5, 0.0), 1022.75, 1023.0}) {
+    std::fill_n(x, W, value);
+    compare();
+  }
+  testing::Test::RecordProperty("worst", fmt::format("{:.2e}", worst));
+  EXPECT_LT(worst, 3e-13);
+  for (double large : {1023.5, 1e300, inf}) {
+    std::fill_n(x, W, large);
+    power(x, y);
+    EXPECT_NEAR(y[W - 1] / 0x1p1023, 1.0, 3e-13);
+  }
+  x[1] = nan;
+  power(x, y);
+  EXPECT_TRUE(std::isnan(y[1]));
+  EXPECT_GT(y[0], 1e300);
+}
+
+TYPED_TEST(EveryWidth, PowerOfTwoHasTwelveDigits) {
+  using P = TypeParam;
+  expect_power_of_two<P::width>([](const double* x, double* y) { exp2_of_nonnegative(P::load(x)).store(y); });
+}
+
+TEST(Scalar, PowerOfTwo) {
+  EXPECT_EQ(exp2_of_nonnegative(2.5), std::exp2(2.5));
+  EXPECT_EQ(exp2_of_nonnegative(1e300), 0x1p1023);
+  EXPECT_TRUE(std::isnan(exp2_of_nonnegative(nan)));
+}
+
+TEST(InstructionSets, PowerOfTwoWithAvx2) {
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) GTEST_SKIP() << "no AVX2";
+  expect_power_of_two<4>(test::exp2_avx2);
+}
+
+TEST(InstructionSets, PowerOfTwoWithAvx512) {
+  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512dq")) GTEST_SKIP() << "no AVX-512";
+  expect_power_of_two<8>(test::exp2_avx512);
 }
 
 TYPED_TEST(EveryWidth, LogarithmIsWithinTwoUlp) {

@@ -1,9 +1,14 @@
 #include "tunica/stages/plot.hpp"
 
 #include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "tunica/base/error.hpp"
@@ -74,7 +79,40 @@ TEST(Plot, RefusesWhatCannotBeDrawn) {
   PlotOptions options;
   options.log_x = true;
   EXPECT_THROW(draw_plot({{"a", {0.0, -2.0}, {1.0, 1.0}}}, options), InputError);
-  EXPECT_THROW(write_plot("no/such/folder/plot.svg", {{"a", {1.0}, {1.0}}}, {}), InputError);
+  for (const char* file : {"no/such/folder/plot.svg", "no/such/folder/plot.png", "plot.pdf", "plot"})
+    EXPECT_THROW(write_plot(file, {{"a", {1.0}, {1.0}}}, {}), InputError) << file;
+  EXPECT_FALSE(std::filesystem::exists("plot.pdf"));
+}
+
+TEST(Plot, IsRenderedAsPng) {
+  const std::string file = testing::TempDir() + "plot.png";
+  std::filesystem::remove(file);
+  PlotOptions options;
+  options.width = 300;
+  options.height = 200;
+  options.title = "a title";
+  write_plot(file, {{"line", {0.0, 1.0}, {0.0, 1.0}}}, options);
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  ASSERT_EQ(image.GetDimensions()[0], 300 * png_scale);
+  ASSERT_EQ(image.GetDimensions()[1], 200 * png_scale);
+  ASSERT_EQ(image.GetNumberOfScalarComponents(), 3);
+  int white = 0, line = 0, title = 0;
+  for (int y = 0; y < 200 * png_scale; ++y)
+    for (int x = 0; x < 300 * png_scale; ++x) {
+      const auto* c = static_cast<const unsigned char*>(image.GetScalarPointer(x, y, 0));
+      const std::array<int, 3> rgb{c[0], c[1], c[2]};
+      if (rgb == std::array{255, 255, 255}) ++white;
+      if (rgb == std::array{0x00, 0x72, 0xb2}) ++line;
+      if (y > 165 * png_scale && c[0] < 100) ++title;
+    }
+  EXPECT_GT(white, 160 * 300 * png_scale * png_scale);
+  // The curve crosses the frame of 202 x 104 pixels: 227 long, 1.5 wide, in the first colour; and once in the legend.
+  EXPECT_GT(line, 200 * png_scale * png_scale);
+  EXPECT_LT(line, 500 * png_scale * png_scale);
+  EXPECT_GT(title, 50) << "letters above the frame";
 }
 
 TEST(Plot, DrawsRingsInTheColourOfAnotherSeries) {

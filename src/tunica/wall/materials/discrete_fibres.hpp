@@ -3,16 +3,21 @@
 //   (x) N
 // (Li, Holzapfel et al. 2018, "A discrete fibre dispersion method for excluding fibres under compression").
 //
-// A batch of elements is one lane each. Directions come in pairs that mirror each other in the plane of the wall,
-// (N1, N2, N3) and (N1, N2, -N3), as in every set that is symmetric about the plane. The two strains are even +- odd, a
-// part with C11 C22 C33 C12 and one with C23 C13, and the sums need the sum of the two slopes in the first four
-// entries and their difference in the others, so that a pair costs little more than one direction but for its two
-// exponentials.
+// A batch of elements is one lane each. Directions come in groups that mirror each other: (N1, N2, +-N3) in every set
+// that is symmetric about the plane of the wall, (N1, +-N2, +-N3) where the families lie symmetrically about e1 too.
+// The strains of a group are sums and differences of two or four parts of C : N (x) N, and the sums over a group need
+// its slopes in as many combinations, one for each pattern of signs among the entries of N (x) N. A group thereby costs
+// little more than one direction but for its exponentials.
 //
-// The pairs are taken in chunks: strains of those that pull in any lane; their exponentials; sums. N (x) N (x) N (x) N
-// has 15 distinct entries; with those of N (x) N they are summed in one go where the registers suffice, else in two.
+// Groups are taken in chunks: strains of those that pull in any lane; their exponentials; sums, with the 15 distinct
+// entries of N (x) N (x) N (x) N and the 6 of N (x) N from a table. Strains carry the factor that makes their square
+// the exponent of two; it and all else that is common to the directions is applied to the sums.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -20,71 +25,143 @@
 
 namespace tunica::wall {
 
+/// The image 0 of a direction is (N1, N2, N3), 1 is (N1, N2, -N3), 2 is (N1, -N2, N3) and 3 is (N1, -N2, -N3).
+template <int images>
+struct FibreGroup {
+  /// N (x) N of the image 0 in Voigt order, and N (x) N (x) N (x) N:
+  /// 1111 1122 1133 1112 1123 1113, 2222 2233 2212 2223 2213, 3333 3312 3323 3313.
+  double products[21];
+  double density[images];  ///< zero where the set has no such direction
+
+  /// Sign of the entry n of N (x) N in an image.
+  static constexpr double sign(int image, int n) {
+    const bool third = n > 3 && image % 2 == 1, second = (n == 3 || n == 4) && image > 1;
+    return third == second ? 1.0 : -1.0;
+  }
+};
+
 /// Directions of fibres that have the same energy.
 struct FibreBundle {
-  /// Two directions that mirror each other in the e1-e2 plane, a cache line: N (x) N of the first in Voigt order, and
-  /// their densities. The second is zero where a direction has no mirror image in the set.
-  struct Pair {
-    double NN[voigt_size];
-    double density[2];
-  };
   FibreEnergy energy;
-  std::vector<Pair> pairs;
+  std::vector<FibreGroup<4>> fours;
+  std::vector<FibreGroup<2>> pairs;
   std::size_t directions = 0;  ///< number of them
 
   /// `directions` unit vectors in the fibre frame, no two of them equal up to the sign; `densities` rho_n, equally
   /// many.
   static FibreBundle make(const FibreEnergy& energy, std::span<const Vec3<double>> directions,
                           std::span<const double> densities);
+
+  template <class Visitor>
+  void visit_groups(const Visitor& visitor) const {
+    for (const auto& group : fours) visitor(group);
+    for (const auto& group : pairs) visitor(group);
+  }
 };
 
 namespace detail {
 
-/// At most one chunk of pairs, with those left out that pull in no lane.
+/// Sums over the images with the signs of 11, 12, 23 and 13 (four images) or of 11 and 23 (two). Being its own
+/// transpose, the same map takes the parts of a strain with these signs to the strains of the images.
 template <class T>
+TUNICA_INLINE void combine_images(const T (&x)[2], T (&sum)[2]) {
+  sum[0] = x[0] + x[1];
+  sum[1] = x[0] - x[1];
+}
+template <class T>
+TUNICA_INLINE void combine_images(const T (&x)[4], T (&sum)[4]) {
+  const T plus = x[0] + x[1], minus = x[0] - x[1], plus_mirrored = x[2] + x[3], minus_mirrored = x[2] - x[3];
+  sum[0] = plus + plus_mirrored;
+  sum[1] = plus - plus_mirrored;
+  sum[2] = minus - minus_mirrored;
+  sum[3] = minus + minus_mirrored;
+}
+
+/// Which of these sums goes with FibreGroup::products[n].
+constexpr int combination(int images, int n) {
+  constexpr int second_pair[21] = {0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 2, 3, 4, 5};
+  const int voigt = second_pair[n];
+  return images == 4 ? std::max(voigt - 2, 0) : voigt / 4;
+}
+
+/// Quantities that the directions of a bundle have in common.
+template <class T>
+struct FibreScales {
+  double root;  ///< of k2 log2(e)
+  double stress, tangent;
+  T C[voigt_size];  ///< root C, shear counted twice
+  double pulling;   ///< root times the strain above which a fibre takes part
+
+  TUNICA_INLINE FibreScales(const FibreEnergy& energy, const Symmetric<T>& strain, bool tension_only) {
+    constexpr double no_stiffening = 1e-30;  // keeps the root from vanishing
+    root = std::sqrt(std::max(energy.k2, no_stiffening) * std::numbers::log2e);
+    stress = 2.0 * energy.k1 / root;
+    tangent = 4.0 * energy.k1;
+    for (int n = 0; n < voigt_size; ++n) C[n] = T(n < 3 ? root : 2.0 * root) * strain[n];
+    pulling = tension_only ? root * switch_strain : -std::numeric_limits<double>::infinity();
+  }
+};
+
+/// At most one chunk of groups, with those left out that pull in no lane.
+template <class T, int images>
 struct FibreChunk {
-  static constexpr int size = 32;
-  T strain[size][2];                     ///< of a direction and its mirror image
-  T slope[size][2], curvature[size][2];  ///< sum over the two, and difference
-  const FibreBundle::Pair* pair[size];
+  static constexpr int size = 128 / images;  // 16 KiB of AVX-512, half of the first cache
+  T slope[size][images];                     ///< strains scaled by FibreScales::root, then combinations of the slopes
+  T curvature[size][images];                 ///< combinations of the images, as the slopes without the common factors
+  const FibreGroup<images>* group[size];
   int count;
 
-  TUNICA_INLINE void find(const FibreBundle::Pair* first, int n, const Symmetric<T>& C, bool tension_only) {
-    const T C12 = T(2.0) * C[3], C23 = T(2.0) * C[4], C13 = T(2.0) * C[5], pulling(switch_strain);
+  TUNICA_INLINE void find(const FibreGroup<images>* first, int n, const FibreScales<T>& scales) {
     count = 0;
     for (int i = 0; i < n; ++i) {
-      const double* NN = first[i].NN;
-      const T even = (C[0] * T(NN[0]) + C[1] * T(NN[1])) + (C[2] * T(NN[2]) + (C12 * T(NN[3]) - T(1.0)));
-      const T odd = C23 * T(NN[4]) + C13 * T(NN[5]);
-      strain[count][0] = even + odd;
-      strain[count][1] = even - odd;
-      pair[count] = first + i;
-      count += !tension_only || any_above(max(strain[count][0], strain[count][1]), pulling) ? 1 : 0;
+      const double* NN = first[i].products;
+      const T diagonal = scales.C[0] * T(NN[0]) + (scales.C[1] * T(NN[1]) + (scales.C[2] * T(NN[2]) - T(scales.root)));
+      if constexpr (images == 4) {
+        const T parts[4] = {diagonal, scales.C[3] * T(NN[3]), scales.C[4] * T(NN[4]), scales.C[5] * T(NN[5])};
+        combine_images(parts, slope[count]);
+      } else {
+        const T parts[2] = {diagonal + scales.C[3] * T(NN[3]), scales.C[4] * T(NN[4]) + scales.C[5] * T(NN[5])};
+        combine_images(parts, slope[count]);
+      }
+      T largest = max(slope[count][0], slope[count][1]);
+      if constexpr (images == 4) largest = max(largest, max(slope[count][2], slope[count][3]));
+      group[count] = first + i;
+      count += any_above(largest, T(scales.pulling)) ? 1 : 0;
     }
   }
-  /// 2 rho f' and, if `with_curvature`, 4 rho f''.
+
+  /// Combinations of rho f'/k1 and, if `with_curvature`, rho f''/k1.
   template <bool with_curvature>
-  TUNICA_INLINE void differentiate(const FibreEnergy& energy, bool tension_only) {
-    const T lowest = tension_only ? T(0.0) : T(-2.0);  // C : N (x) N - 1 is above -1
-    const T pulling = tension_only ? T(switch_strain) : lowest;
-    const T twice_k1(2.0 * energy.k1), four_k2(4.0 * energy.k2);
+  TUNICA_INLINE void differentiate(const FibreScales<T>& scales) {
+    const T pulling(scales.pulling), zero(0.0), twice_ln2(2.0 * std::numbers::ln2);
     for (int i = 0; i < count; ++i) {
-      T f[2], ff[2];
-#pragma GCC unroll 2
-      for (int side = 0; side < 2; ++side) {
-        const T E = max(strain[i][side], lowest);
-        const T scaled = twice_k1 * T(pair[i]->density[side]) * energy.exponential(E);
-        f[side] = scaled * E;
-        if constexpr (with_curvature)
-          ff[side] = select(strain[i][side] > pulling, scaled * (T(2.0) + four_k2 * (E * E)), T(0.0));
+      T f[images], ff[images];
+#pragma GCC unroll 4
+      for (int image = 0; image < images; ++image) {
+        const T E = slope[i][image], exponent = E * E;
+        const T scaled = select(E > pulling, T(group[i]->density[image]) * exp2_of_nonnegative(exponent), zero);
+        f[image] = scaled * E;
+        if constexpr (with_curvature) ff[image] = scaled * (T(1.0) + twice_ln2 * exponent);
       }
-      slope[i][0] = f[0] + f[1];
-      slope[i][1] = f[0] - f[1];
-      if constexpr (with_curvature) {
-        curvature[i][0] = ff[0] + ff[1];
-        curvature[i][1] = ff[0] - ff[1];
-      }
+      combine_images(f, slope[i]);
+      if constexpr (with_curvature) combine_images(ff, curvature[i]);
     }
+  }
+
+  /// Adds the products begin ... end - 1 to the sums of stress and tangent.
+  template <int begin, int end>
+  TUNICA_INLINE void add(T (&sums)[21]) const {
+    T s[end - begin];
+#pragma GCC unroll 21
+    for (int n = begin; n < end; ++n) s[n - begin] = sums[n];
+    for (int i = 0; i < count; ++i) {
+      const double* products = group[i]->products;
+#pragma GCC unroll 21
+      for (int n = begin; n < end; ++n)
+        s[n - begin] += (n < 6 ? slope : curvature)[i][combination(images, n)] * T(products[n]);
+    }
+#pragma GCC unroll 21
+    for (int n = begin; n < end; ++n) sums[n] = s[n - begin];
   }
 };
 
@@ -98,13 +175,14 @@ struct DiscreteFibres {
   T energy(const Symmetric<T>& C) const {
     T psi(0.0);
     for (const FibreBundle& bundle : bundles)
-      for (const auto& pair : bundle.pairs)
-        for (const int side : {0, 1}) {
+      bundle.visit_groups([&]<int images>(const FibreGroup<images>& group) {
+        for (int image = 0; image < images; ++image) {
           T E(-1.0);
           for (int n = 0; n < voigt_size; ++n)
-            E += T((n < 3 ? 1.0 : 2.0) * (n > 3 && side == 1 ? -pair.NN[n] : pair.NN[n])) * C[n];
-          psi += T(pair.density[side]) * bundle.energy.value(admitted(E, tension_only));
+            E += T((n < 3 ? 1.0 : 2.0) * group.sign(image, n) * group.products[n]) * C[n];
+          psi += T(group.density[image]) * bundle.energy.value(admitted(E, tension_only));
         }
+      });
     return psi;
   }
 
@@ -112,26 +190,26 @@ struct DiscreteFibres {
   TUNICA_INLINE Symmetric<T> stress(const Symmetric<T>& C) const {
     const T zero(0.0);
     Symmetric<T> S{{zero, zero, zero, zero, zero, zero}};
-    visit_chunks<T, false>(C, [&](const detail::FibreChunk<T>& chunk) { add_stress(chunk, S); });
+    for (const FibreBundle& bundle : bundles) {
+      T sums[21];
+      const double scale = sum<T, false>(bundle, C, sums).stress;
+      for (int n = 0; n < voigt_size; ++n) S[n] += T(scale) * sums[n];
+    }
     return S;
   }
 
   template <class T>
   TUNICA_INLINE Response<T> response(const Symmetric<T>& C) const {
-    Response<T> r;
-    for (T& x : r.stress.v) x = T(0.0);
-    T NNNN[15];  // 1111 1122 1133 1112 1123 1113 | 2222 2233 2212 2223 2213 | 3333 3312 3323 3313
-    for (T& x : NNNN) x = T(0.0);
-    visit_chunks<T, true>(C, [&](const detail::FibreChunk<T>& chunk) {
-      if constexpr (lanes<T> >= 8) {  // 32 registers hold all sums
-        add<true, true>(chunk, r.stress.v, NNNN);
-      } else {
-        add<true, false>(chunk, r.stress.v, NNNN);
-        add<false, true>(chunk, r.stress.v, NNNN);
-      }
-    });
     constexpr int entry[21] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 1, 10, 4, 7, 12, 2};
-    for (int n = 0; n < 21; ++n) r.tangent.v[n] = NNNN[entry[n]];
+    Response<T> r = zero_response<T>();
+    for (const FibreBundle& bundle : bundles) {
+      T sums[21];
+      const auto scales = sum<T, true>(bundle, C, sums);
+#pragma GCC unroll 6
+      for (int n = 0; n < voigt_size; ++n) r.stress[n] += T(scales.stress) * sums[n];
+#pragma GCC unroll 21
+      for (int n = 0; n < 21; ++n) r.tangent.v[n] += T(scales.tangent) * sums[6 + entry[n]];
+    }
     return r;
   }
 
@@ -142,66 +220,34 @@ struct DiscreteFibres {
   }
 
  private:
-  template <class T, bool with_curvature, class Visitor>
-  TUNICA_INLINE void visit_chunks(const Symmetric<T>& C, Visitor visitor) const {
-    using Chunk = detail::FibreChunk<T>;
-    Chunk chunk;
-    for (const FibreBundle& bundle : bundles) {
-      const int n = static_cast<int>(bundle.pairs.size());
-      for (int begin = 0; begin < n; begin += Chunk::size) {
-        chunk.find(bundle.pairs.data() + begin, n - begin < Chunk::size ? n - begin : Chunk::size, C, tension_only);
-        chunk.template differentiate<with_curvature>(bundle.energy, tension_only);
-        visitor(chunk);
-      }
-    }
+  /// The sums of stress and tangent over a bundle, and what they are to be multiplied by.
+  template <class T, bool with_tangent>
+  TUNICA_INLINE detail::FibreScales<T> sum(const FibreBundle& bundle, const Symmetric<T>& C, T (&sums)[21]) const {
+#pragma GCC unroll 21
+    for (int n = 0; n < 21; ++n) sums[n] = T(0.0);
+    const detail::FibreScales<T> scales(bundle.energy, C, tension_only);
+    sum_groups<T, with_tangent, 4>(bundle.fours, scales, sums);
+    sum_groups<T, with_tangent, 2>(bundle.pairs, scales, sums);
+    return scales;
   }
 
-  template <class T>
-  static TUNICA_INLINE void add_stress(const detail::FibreChunk<T>& chunk, Symmetric<T>& S) {
-    Symmetric<T> sum = S;
-    for (int i = 0; i < chunk.count; ++i) {
-      const double* NN = chunk.pair[i]->NN;
-#pragma GCC unroll 6
-      for (int n = 0; n < voigt_size; ++n) sum[n] += chunk.slope[i][n > 3] * T(NN[n]);
-    }
-    S = sum;
-  }
-
-  /// The stress and the entries 11.. of the tangent (`first`), its entries 22.. and 33.. without 11 (`second`).
-  template <bool first, bool second, class T>
-  static TUNICA_INLINE void add(const detail::FibreChunk<T>& chunk, T* stress, T* tangent) {
-    T S[6], a[6], b[9];
-#pragma GCC unroll 6
-    for (int n = 0; n < 6; ++n) S[n] = stress[n], a[n] = tangent[n];
-#pragma GCC unroll 9
-    for (int n = 0; n < 9; ++n) b[n] = tangent[6 + n];
-    for (int i = 0; i < chunk.count; ++i) {
-      const double* NN = chunk.pair[i]->NN;
-      const T &even = chunk.curvature[i][0], &odd = chunk.curvature[i][1];
-      if constexpr (first) {
-        const T N11(NN[0]), rows[2] = {even * N11, odd * N11};
-#pragma GCC unroll 6
-        for (int n = 0; n < 6; ++n) {
-          const T entry(NN[n]);
-          S[n] += chunk.slope[i][n > 3] * entry;
-          a[n] += rows[n > 3] * entry;
-        }
-      }
-      if constexpr (second) {
-        const T N22(NN[1]), N33(NN[2]);
-        const T rows2[2] = {even * N22, odd * N22}, rows3[2] = {even * N33, odd * N33};
-#pragma GCC unroll 5
-        for (int n = 0; n < 5; ++n) b[n] += rows2[n + 1 > 3] * T(NN[n + 1]);
-#pragma GCC unroll 4
-        for (int n = 0; n < 4; ++n) b[n + 5] += rows3[n + 2 > 3] * T(NN[n + 2]);
+  template <class T, bool with_tangent, int images>
+  static TUNICA_INLINE void sum_groups(const std::vector<FibreGroup<images>>& groups,
+                                       const detail::FibreScales<T>& scales, T (&sums)[21]) {
+    detail::FibreChunk<T, images> chunk;
+    const int n = static_cast<int>(groups.size());
+    for (int begin = 0; begin < n; begin += chunk.size) {
+      chunk.find(groups.data() + begin, std::min(n - begin, chunk.size), scales);
+      chunk.template differentiate<with_tangent>(scales);
+      if constexpr (!with_tangent) {
+        chunk.template add<0, 6>(sums);
+      } else if constexpr (lanes<T> >= 8) {  // 32 registers hold all sums
+        chunk.template add<0, 21>(sums);
+      } else {
+        chunk.template add<0, 11>(sums);
+        chunk.template add<11, 21>(sums);
       }
     }
-    if constexpr (first)
-#pragma GCC unroll 6
-      for (int n = 0; n < 6; ++n) stress[n] = S[n], tangent[n] = a[n];
-    if constexpr (second)
-#pragma GCC unroll 9
-      for (int n = 0; n < 9; ++n) tangent[6 + n] = b[n];
   }
 };
 

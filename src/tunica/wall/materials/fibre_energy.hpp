@@ -21,7 +21,7 @@ struct FibreEnergy {
   /// exp[k2 E^2]
   template <class T>
   TUNICA_INLINE T exponential(const T& E) const {
-    return exp2(T(k2 * std::numbers::log2e) * (E * E));
+    return exp2_of_nonnegative(T(k2 * std::numbers::log2e) * (E * E));
   }
   /// f'(E) [Pa]
   template <class T>

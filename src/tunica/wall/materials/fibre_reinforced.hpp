@@ -27,13 +27,7 @@ struct FibreReinforced {
   }
   template <class T>
   TUNICA_INLINE Response<T> response(const Symmetric<T>& C_bar) const {
-    Response<T> r;
-    if (unsplit) {
-      for (T& x : r.stress.v) x = T(0.0);
-      for (T& x : r.tangent.v) x = T(0.0);
-    } else {
-      r = fibres.response(C_bar);
-    }
+    Response<T> r = unsplit ? zero_response<T>() : fibres.response(C_bar);
     for (int n = 0; n < 3; ++n) r.stress[n] += T(shear_modulus);
     return r;
   }
