@@ -1,45 +1,20 @@
 // tunica run: computes a case.
-#include <mpi.h>
-
-#include <cstdio>
-#include <exception>
 #include <memory>
 
 #include "commands.hpp"
-#include "tunica/parallel/agree.hpp"
-#include "tunica/parallel/petsc.hpp"
+#include "session.hpp"
 #include "tunica/stages/run.hpp"
 #include "version.hpp"
 
 namespace tunica::app {
 namespace {
 
-constexpr int input_error = 2, solver_failure = 3;
-
-int report(int code, const std::exception& error) {
-  if (parallel::rank(MPI_COMM_WORLD) == 0) {
-    std::fflush(stdout);
-    std::fprintf(stderr, "tunica: %s\n", error.what());
-  }
-  return code;
-}
-
-/// Returns the exit code. Input and solver errors come to all ranks alike; any other exception may be that of one rank
-/// for which the others would wait for ever.
+/// Returns the exit code.
 int run(const stages::RunRequest& request) {
-  const parallel::Session session;
-  try {
+  return in_session([&] {
     const stages::RunOutcome outcome = stages::run(MPI_COMM_WORLD, request, stdout);
     return outcome.signal == 0 ? 0 : 128 + outcome.signal;
-  } catch (const InputError& error) {
-    return report(input_error, error);
-  } catch (const SolverError& error) {
-    return report(solver_failure, error);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tunica: rank %d: %s\n", parallel::rank(MPI_COMM_WORLD), error.what());
-    MPI_Abort(MPI_COMM_WORLD, solver_failure);
-    throw;  // not reached
-  }
+  });
 }
 
 struct Options {

@@ -13,6 +13,7 @@
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/wall/surface.hpp"
 
 namespace tunica::coupling {
 
@@ -80,7 +81,7 @@ class Boundaries {
     enum class Kind { lumen_pressure, lumen_traction, follower_pressure, dead_pressure, dead_traction, support } kind;
     bc::Waveform course = bc::Waveform::constant(1.0);
     Vec3<double> vector{};
-    bc::Support support{};
+    std::vector<wall::TissueSupport<double>> support{};  ///< of each triangle: means of its nodes
   };
   struct FieldNode {
     std::int32_t node;

@@ -332,6 +332,30 @@ TEST(Boundaries, PressureLevelIsHeldAtOneNode) {
   EXPECT_EQ(parallel::global_sum(MPI_COMM_WORLD, held), 1);
 }
 
+// k_s grows linearly along the tube, so that the mean of the nodes integrates it exactly on every triangle.
+TEST(Boundaries, SupportVariesOverItsFace) {
+  auto data = test::fsi_tube();
+  const double length = test::tube_sizes(0.0).length;
+  auto& field = data.node_fields.emplace_back();
+  field.name = mesh::face_array_name("wall_outer", "k");
+  for (const auto& x : data.points) field.values.push_back(1.0 + 2.0 * x[2] / length);
+  auto input = test::fsi_input(test::pressure(0.0), test::pressure(0.0));
+  const auto force_with = [&](const bc::SupportValue& stiffness) {
+    input.boundary.conditions.back().second = bc::Support{.stiffness = stiffness};
+    const Bound b(data, input.boundary);
+    auto fields = test::random_fields(b.mesh, {0, 0, 0, 0});
+    for (std::size_t k = 0; k < fields.displacement.size(); k += 4) fields.displacement[k] = 1e-4;
+    std::vector<double> residual(at(b.mesh.nodes()), 0.0);
+    b.boundaries.add_loads(0.0, 1.0, fields.view(), {0.0, 1.0}, residual, nullptr);
+    return b.sum(residual)[0];
+  };
+  const double constant = force_with(2e6), varying = force_with(bc::FaceArray{"k", 1e6});
+  EXPECT_GT(constant, 0.1);
+  EXPECT_NEAR(varying, constant, 1e-12 * constant);  // the mean of 1 .. 3 times 1e6
+  EXPECT_THROW(force_with(bc::FaceArray{"stiffness", 1e6}), InputError);
+  EXPECT_THROW(force_with(bc::FaceArray{"k", -1e6}), InputError);
+}
+
 TEST(Boundaries, RefuseAFaceThatIsNotThere) {
   const auto mesh = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
   const auto pattern = assembly::make_pattern(mesh);

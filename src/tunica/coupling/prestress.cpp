@@ -1,0 +1,251 @@
+#include "tunica/coupling/prestress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tunica/base/error.hpp"
+#include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/wall_element.hpp"
+#include "tunica/parallel/agree.hpp"
+
+namespace tunica::coupling {
+
+namespace {
+
+using Method = PrestressSettings::Method;
+using Update = PrestressSettings::Update;
+
+constexpr int most_load_steps = 256;
+constexpr double least_relaxation = 1.0 / 128;
+
+WallPrestress without_prestress(const mesh::DistributedMesh& mesh, Method method) {
+  WallPrestress p{.kind = method == Method::stress ? wall::PrestressKind::stress : wall::PrestressKind::stretch};
+  const auto n = static_cast<std::size_t>(wall::components(p.kind));
+  for (const auto& region : mesh.regions) {
+    auto& values = p.values.emplace_back();
+    if (region.kind != mesh::RegionKind::wall) continue;
+    values.assign(n * region.elements.size(), 0.0);
+    if (method == Method::stretch)
+      for (std::size_t k = 0; k < values.size(); k += 9) values[k] = values[k + 4] = values[k + 8] = 1.0;
+  }
+  return p;
+}
+
+/// dx/dX of the motion from the imaged shape, global axes.
+Mat3<double> motion_gradient(const mesh::DistributedMesh& mesh, const State& state,
+                             const std::array<std::int32_t, 4>& nodes) {
+  wall::ElementState<double> e;
+  Vec3<double> X[4];
+  for (int a = 0; a < 4; ++a) {
+    X[a] = mesh.points[nodes[a]];
+    e.displacement[a] = vector_at(state.displacement.data(), nodes[a]);
+  }
+  wall::set_reference(e, X);
+  return wall::deformation_gradient(e);
+}
+
+class FixedPoint {
+ public:
+  FixedPoint(Problem& problem, const PrestressSettings& settings, double load_time)
+      : problem_(problem), settings_(settings), mesh_(problem.mesh()) {
+    find_prestressed_nodes();
+    result_.prestress = without_prestress(mesh_, settings.method);
+    result_.state = problem.initial_state();
+    result_.state.time = load_time;
+  }
+
+  PrestressResult run(const std::function<void(const PrestressRecord&)>& follow);
+
+ private:
+  bool excluded(const mesh::Region& region) const {
+    return std::find(settings_.exclude.begin(), settings_.exclude.end(), region.name) != settings_.exclude.end();
+  }
+  void find_prestressed_nodes();
+  double largest_displacement(const State& state) const;
+  /// Takes `state` to equilibrium under the whole load; false when Newton's method fails.
+  bool load(State& state, int steps, PrestressRecord& record);
+  bool load_from_rest(State& state, PrestressRecord& record);
+  WallPrestress updated(const State& loaded) const;
+  /// Prestress between `from` and `to`.
+  WallPrestress between(const WallPrestress& from, const WallPrestress& to, double share) const;
+  /// What the next solution starts from: back in the imaged shape.
+  State rest(const State& loaded) const;
+
+  Problem& problem_;
+  const PrestressSettings& settings_;
+  const mesh::DistributedMesh& mesh_;
+  std::vector<char> prestressed_;  ///< [owned node]
+  PrestressResult result_;
+};
+
+void FixedPoint::find_prestressed_nodes() {
+  prestressed_.assign(static_cast<std::size_t>(mesh_.nodes()), 0);
+  std::vector<std::string> left = settings_.exclude;
+  std::string names;
+  for (const auto& region : mesh_.regions) {
+    if (region.kind != mesh::RegionKind::wall) continue;
+    names += (names.empty() ? "" : ", ") + region.name;
+    std::erase(left, region.name);
+    if (excluded(region)) continue;
+    for (const auto& element : region.elements)
+      for (const auto node : element) prestressed_[static_cast<std::size_t>(node)] = 1;
+  }
+  if (!left.empty())
+    throw InputError("prestress.exclude", "the mesh has no wall region " + left.front(), "use one of: " + names);
+}
+
+double FixedPoint::largest_displacement(const State& state) const {
+  double largest = 0.0;
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i)
+    if (prestressed_[static_cast<std::size_t>(i)])
+      largest = std::max(largest, norm(vector_at(state.displacement.data(), i)));
+  return parallel::global_max(mesh_.comm, largest);
+}
+
+bool FixedPoint::load(State& state, int steps, PrestressRecord& record) {
+  record.load_steps = steps;
+  for (int k = 1; k <= steps; ++k) {
+    const StepReport report = problem_.solve_static(state, static_cast<double>(k) / steps);
+    record.newton += static_cast<int>(report.iterations.size());
+    record.linear += report.linear_iterations();
+    record.seconds += report.timings.total;
+    result_.failure = report.failure;
+    if (!report.converged) return false;
+  }
+  return true;
+}
+
+bool FixedPoint::load_from_rest(State& state, PrestressRecord& record) {
+  const State start = state;
+  for (int steps = settings_.load_steps; steps <= most_load_steps; steps *= 2) {
+    state = start;
+    if (load(state, steps, record)) return true;
+  }
+  return false;
+}
+
+// (5.3) to (5.5). `loaded` is in equilibrium with the present prestress.
+WallPrestress FixedPoint::updated(const State& loaded) const {
+  WallPrestress next = result_.prestress;
+  const WallModel& model = problem_.wall_model();
+  for (std::size_t r = 0; r < mesh_.regions.size(); ++r) {
+    const auto& region = mesh_.regions[r];
+    if (region.kind != mesh::RegionKind::wall || excluded(region)) continue;
+    for (std::size_t e = 0; e < region.elements.size(); ++e) {
+      const Mat3<double> F = motion_gradient(mesh_, loaded, region.elements[e]);
+      if (settings_.method == Method::stretch) {
+        Mat3<double> F0;
+        for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = next.values[r][9 * e + static_cast<std::size_t>(k)];
+        F0 = F * F0;
+        for (int k = 0; k < 9; ++k) next.values[r][9 * e + static_cast<std::size_t>(k)] = F0(k / 3, k % 3);
+        continue;
+      }
+      const auto element = static_cast<std::int32_t>(e);
+      const auto sigma = cauchy_stress(model, r, element, wall_element(mesh_, model, loaded, r, element));
+      const Mat3<double> P = wall::full(sigma) * transpose(adjugate(F));  // J sigma F^-T
+      const Mat3<double> S = settings_.update == Update::first_piola ? P : inverse(F) * P;
+      for (int n = 0; n < wall::voigt_size; ++n) {
+        const int i = wall::voigt_row[n], j = wall::voigt_column[n];
+        next.values[r][wall::voigt_size * e + static_cast<std::size_t>(n)] = 0.5 * (S(i, j) + S(j, i));
+      }
+    }
+  }
+  return next;
+}
+
+WallPrestress FixedPoint::between(const WallPrestress& from, const WallPrestress& to, double share) const {
+  WallPrestress result = to;
+  for (std::size_t r = 0; r < result.values.size(); ++r)
+    for (std::size_t k = 0; k < result.values[r].size(); ++k)
+      result.values[r][k] = from.values[r][k] + share * (to.values[r][k] - from.values[r][k]);
+  return result;
+}
+
+State FixedPoint::rest(const State& loaded) const {
+  State state = loaded;
+  std::fill(state.displacement.begin(), state.displacement.end(), 0.0);
+  if (settings_.method == Method::stress)
+    std::fill(state.velocity_pressure.begin(), state.velocity_pressure.end(), 0.0);
+  state.residual_reference = 0.0;
+  return state;
+}
+
+PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)>& follow) {
+  double relaxation = settings_.relaxation, last = std::numeric_limits<double>::infinity();
+  WallPrestress from, to;  // of the last update
+  problem_.set_prestress(result_.prestress);
+  for (int k = 1; k <= settings_.max_iterations; ++k) {
+    PrestressRecord record{.iteration = k, .relaxation = k == 1 ? 0.0 : relaxation};
+    State loaded = result_.state;
+    const bool solved = k == 1 ? load_from_rest(loaded, record) : load(loaded, 1, record);
+    record.displacement = solved ? largest_displacement(loaded) : std::numeric_limits<double>::quiet_NaN();
+    result_.history.push_back(record);
+    follow(record);
+    if (solved && record.displacement <= settings_.tolerance) {
+      result_.state = rest(loaded);
+      result_.converged = true;
+      return std::move(result_);
+    }
+    if (k == 1 && !solved) return std::move(result_);
+    if (solved && record.displacement < last) {
+      last = record.displacement;
+      from = result_.prestress, to = updated(loaded);
+      result_.state = rest(loaded);
+      if (k > 1) relaxation = std::min(settings_.relaxation, 1.5 * relaxation);
+    } else {  // back to the last update, of which a smaller share is taken
+      relaxation *= 0.5;
+      if (relaxation < least_relaxation) {
+        if (solved)
+          result_.failure =
+              fmt::format("the displacement grows from {:.3e} m to {:.3e} m with {:.3g} of the update", last,
+                          record.displacement, 2 * relaxation);
+        return std::move(result_);
+      }
+    }
+    result_.prestress = between(from, to, relaxation);
+    problem_.set_prestress(result_.prestress);
+  }
+  result_.failure = fmt::format("after {} iterations the largest displacement is {:.3e} m, allowed are {:.3e} m",
+                                settings_.max_iterations, last, settings_.tolerance);
+  return std::move(result_);
+}
+
+}  // namespace
+
+config::Schema<PrestressSettings> PrestressSettings::schema() {
+  using namespace config;
+  return Schema<PrestressSettings>("prestress", "Fixed point for the prestress of the imaged wall.")
+      .choice("method", &PrestressSettings::method, {{"stress", Method::stress}, {"stretch", Method::stretch}},
+              "stress: S0 is added to the stress of the law; stretch: the law sees the imaged shape as stretched, so "
+              "that fibres are recruited in it")
+      .by_default()
+      .choice("update", &PrestressSettings::update,
+              {{"first_piola", Update::first_piola}, {"second_piola", Update::second_piola}},
+              "Method stress: the symmetric part of the first Piola-Kirchhoff stress of the loaded wall becomes S0, or "
+              "its second one (Hsu & Bazilevs 2011)")
+      .by_default()
+      .texts("exclude", &PrestressSettings::exclude, "Wall regions that stay free of prestress, such as the flap")
+      .by_default()
+      .quantity("tolerance", &PrestressSettings::tolerance, dimension::length, above(0),
+                "Largest displacement of the prestressed wall under its load")
+      .by_default()
+      .plausible("1e-6 mm", "0.1 mm")
+      .integer("max_iterations", &PrestressSettings::max_iterations, range(1, 10000), "Of the fixed point")
+      .by_default()
+      .number("relaxation", &PrestressSettings::relaxation, range(0.01, 1),
+              "Share of an update that is taken; it is halved by itself where the displacement grows")
+      .by_default()
+      .integer("load_steps", &PrestressSettings::load_steps, range(1, 256),
+               "Equal steps in which the first iteration applies the load; doubled by itself where that fails")
+      .by_default();
+}
+
+PrestressResult find_prestress(Problem& problem, const PrestressSettings& settings, double load_time,
+                               const std::function<void(const PrestressRecord&)>& follow) {
+  return FixedPoint(problem, settings, load_time).run(follow);
+}
+
+}  // namespace tunica::coupling
