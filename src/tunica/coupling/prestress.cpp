@@ -19,7 +19,8 @@ using Method = PrestressSettings::Method;
 using Update = PrestressSettings::Update;
 
 constexpr int most_load_steps = 256;
-constexpr double least_relaxation = 1.0 / 128;
+constexpr double growth = 1.5;  // of the displacement that an update may cause
+constexpr double least_relaxation = 1.0 / 128, most_relaxation = 4.0;
 
 WallPrestress without_prestress(const mesh::DistributedMesh& mesh, Method method) {
   WallPrestress p{.kind = method == Method::stress ? wall::PrestressKind::stress : wall::PrestressKind::stretch};
@@ -65,6 +66,9 @@ class FixedPoint {
   }
   void find_prestressed_nodes();
   double largest_displacement(const State& state) const;
+  /// Share of the next update by Aitken's rule (5.6), from the displacements that the last update, with the share
+  /// `relaxation`, has left of those before it.
+  double next_relaxation(double relaxation, const State& before, const State& after) const;
   /// Takes `state` to equilibrium under the whole load; false when Newton's method fails.
   bool load(State& state, int steps, PrestressRecord& record);
   bool load_from_rest(State& state, PrestressRecord& record);
@@ -103,6 +107,20 @@ double FixedPoint::largest_displacement(const State& state) const {
     if (prestressed_[static_cast<std::size_t>(i)])
       largest = std::max(largest, norm(vector_at(state.displacement.data(), i)));
   return parallel::global_max(mesh_.comm, largest);
+}
+
+double FixedPoint::next_relaxation(double relaxation, const State& before, const State& after) const {
+  double sums[2] = {};  // before . change, change . change
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i) {
+    if (!prestressed_[static_cast<std::size_t>(i)]) continue;
+    const auto old = vector_at(before.displacement.data(), i);
+    const auto change = vector_at(after.displacement.data(), i) - old;
+    sums[0] += dot(old, change);
+    sums[1] += dot(change, change);
+  }
+  parallel::global_sum(mesh_.comm, sums);
+  if (!(sums[1] > 0)) return relaxation;
+  return std::clamp(-relaxation * sums[0] / sums[1], least_relaxation, most_relaxation);
 }
 
 bool FixedPoint::load(State& state, int steps, PrestressRecord& record) {
@@ -176,6 +194,7 @@ State FixedPoint::rest(const State& loaded) const {
 PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)>& follow) {
   double relaxation = settings_.relaxation, last = std::numeric_limits<double>::infinity();
   WallPrestress from, to;  // of the last update
+  State before;            // loaded, when it was made
   problem_.set_prestress(result_.prestress);
   for (int k = 1; k <= settings_.max_iterations; ++k) {
     PrestressRecord record{.iteration = k, .relaxation = k == 1 ? 0.0 : relaxation};
@@ -190,18 +209,18 @@ PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)
       return std::move(result_);
     }
     if (k == 1 && !solved) return std::move(result_);
-    if (solved && record.displacement < last) {
+    if (solved && record.displacement < growth * last) {
       last = record.displacement;
       from = result_.prestress, to = updated(loaded);
       result_.state = rest(loaded);
-      if (k > 1) relaxation = std::min(settings_.relaxation, 1.5 * relaxation);
+      if (k > 1) relaxation = next_relaxation(relaxation, before, loaded);
+      before = std::move(loaded);
     } else {  // back to the last update, of which a smaller share is taken
       relaxation *= 0.5;
       if (relaxation < least_relaxation) {
         if (solved)
-          result_.failure =
-              fmt::format("the displacement grows from {:.3e} m to {:.3e} m with {:.3g} of the update", last,
-                          record.displacement, 2 * relaxation);
+          result_.failure = fmt::format("the displacement grows from {:.3e} m to {:.3e} m with {:.3g} of the update",
+                                        last, record.displacement, 2 * relaxation);
         return std::move(result_);
       }
     }
@@ -236,7 +255,7 @@ config::Schema<PrestressSettings> PrestressSettings::schema() {
       .integer("max_iterations", &PrestressSettings::max_iterations, range(1, 10000), "Of the fixed point")
       .by_default()
       .number("relaxation", &PrestressSettings::relaxation, range(0.01, 1),
-              "Share of an update that is taken; it is halved by itself where the displacement grows")
+              "Share of the first update that is taken; later ones follow from how the displacement falls")
       .by_default()
       .integer("load_steps", &PrestressSettings::load_steps, range(1, 256),
                "Equal steps in which the first iteration applies the load; doubled by itself where that fails")

@@ -178,7 +178,8 @@ void WallModel::fill_prestress(Group& group) const {
   if (prestress_.kind == wall::PrestressKind::none) return;
   const bool stress = prestress_.kind == wall::PrestressKind::stress;
   const auto n = static_cast<std::size_t>(wall::components(prestress_.kind));
-  const auto width = static_cast<std::size_t>(group.batches.width), batches = static_cast<std::size_t>(group.batches.batches());
+  const auto width = static_cast<std::size_t>(group.batches.width),
+             batches = static_cast<std::size_t>(group.batches.batches());
   std::vector<double>& to = stress ? group.prestress : group.prestretch;
   to.resize(batches * n * width);
   const auto& members = group.batches.elements_of_region;

@@ -53,7 +53,7 @@ struct DistributedMesh {
   parallel::Halo halo;
 
   std::int32_t nodes() const { return static_cast<std::int32_t>(points.size()); }
-  const Face& face(const std::string& name) const;  ///< throws InputError listing the names that exist
+  const Face& face(const std::string& name) const;             ///< throws InputError listing the names that exist
   const NodeField& node_field(const std::string& name) const;  ///< the same
 };
 

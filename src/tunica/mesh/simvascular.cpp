@@ -280,8 +280,7 @@ FaceData read_face(const fs::path& path, const Volume& volume, const SimVascular
                                  "the local edge length): {}",
                                  missing.size(), options.tolerance, list_places(missing)),
                      "export faces and volume from the same mesh in the same unit");
-  for (auto& field :
-       fields_of_face(face.name, file, found.nodes, std::ssize(volume.data.points), where))
+  for (auto& field : fields_of_face(face.name, file, found.nodes, std::ssize(volume.data.points), where))
     fields.push_back(std::move(field));
   report.push_back(fmt::format("face {}: {} triangles; {}; {}", face.name, face.triangles.size(), found.how,
                                compare_element_ids(volume, file, face)));

@@ -20,8 +20,8 @@ struct NamedRegions {
 struct SimVascularOptions {
   double metres_per_unit = 0;  ///< length unit of the files, for example 0.01 for cm; > 0
   double tolerance = 1e-3;     ///< for the coordinates of face nodes, as a share of the shortest edge at the node
-  std::optional<NamedRegions> regions{};  ///< else the volume is one region
-  std::vector<std::string> fields{};      ///< cell arrays that are kept with the elements
+  std::optional<NamedRegions> regions{};                          ///< else the volume is one region
+  std::vector<std::string> fields{};                              ///< cell arrays that are kept with the elements
   std::map<std::string, std::vector<std::string>> face_arrays{};  ///< point arrays of faces that are kept, by face
 };
 

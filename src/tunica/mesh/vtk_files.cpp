@@ -73,9 +73,9 @@ ElementField field_of(vtkDataSetAttributes* attributes, const char* kind, const 
     std::string names;
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
       if (const char* other = attributes->GetArrayName(i)) names += (names.empty() ? "" : ", ") + std::string(other);
-    throw InputError(path.string(), fmt::format("there is no numeric {} array called {}", kind, name),
-                     names.empty() ? fmt::format("write one to the file, it has no {} arrays", kind)
-                                   : "use one of: " + names);
+    throw InputError(
+        path.string(), fmt::format("there is no numeric {} array called {}", kind, name),
+        names.empty() ? fmt::format("write one to the file, it has no {} arrays", kind) : "use one of: " + names);
   }
   ElementField field{name, array->GetNumberOfComponents(), {}};
   for (vtkIdType c = 0; c < array->GetNumberOfTuples(); ++c)

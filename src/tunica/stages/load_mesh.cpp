@@ -76,7 +76,8 @@ LoadedMesh read_regions(const MeshSettings& m, const WallArrays& arrays) {
 
 LoadedMesh read_or_generate(const MeshSettings& m, const WallArrays& arrays) {
   if ((m.tube || m.gmsh) && !arrays.face_arrays.empty())
-    throw InputError("boundary." + arrays.face_arrays.begin()->first, "names a point array, which only SimVascular folders bring",
+    throw InputError("boundary." + arrays.face_arrays.begin()->first,
+                     "names a point array, which only SimVascular folders bring",
                      "give a constant, or the wall as `simvascular`");
   if (m.tube) return {mesh::tube(*m.tube), {}};
   if (!m.gmsh) return read_regions(m, arrays);
@@ -122,8 +123,8 @@ std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSetti
 CheckedMesh load_mesh(const Case& c) {
   const bool needs_frames = c.wall && c.wall->fibre_frame;
   LoadedMesh loaded = read_or_generate(
-      c.meshes, {needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{},
-                 support_arrays(c)});
+      c.meshes,
+      {needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{}, support_arrays(c)});
   CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
   std::vector<Problem> problems;
   report_quality(mesh, problems);

@@ -19,8 +19,9 @@ struct CheckedMesh {
   std::vector<std::string> warnings;  ///< elements of poor shape
 };
 
-/// Reads or generates the meshes of the case, joins them, adds the prestress that the wall has, checks the shapes of the elements and that every face has
-/// exactly one condition. Throws InputError with all problems that were found. Not collective: for one rank.
+/// Reads or generates the meshes of the case, joins them, adds the prestress that the wall has, checks the shapes of
+/// the elements and that every face has exactly one condition. Throws InputError with all problems that were found. Not
+/// collective: for one rank.
 CheckedMesh load_mesh(const Case& c);
 
 /// Number that changes with any coordinate, element, face, field or twin: two runs with the same number have the same

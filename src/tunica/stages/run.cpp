@@ -221,7 +221,9 @@ void Run::restore() {
   log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
-    log_->warning("the case file or its prestress has changed since the checkpoint was written; the run goes on with the new one");
+    log_->warning(
+        "the case file or its prestress has changed since the checkpoint was written; the run goes on with the new "
+        "one");
 }
 
 void Run::open_outputs() {

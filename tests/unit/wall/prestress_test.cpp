@@ -55,8 +55,8 @@ TEST(Prestress, AtRestIsTheStressItself) {
 }
 
 TEST(Prestress, IsTheSameStressInAnyFrame) {
-  const Vec3<double> e1{{0.6, 0.8, 0.0}}, e2{{0.0, 0.0, 1.0}}, X[4] = {
-                                                                    {{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0.1, 0, 1}}};
+  const Vec3<double> e1{{0.6, 0.8, 0.0}}, e2{{0.0, 0.0, 1.0}},
+      X[4] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0.1, 0, 1}}};
   ElementState<double> global = state(), turned = global;
   set_reference(global, X);
   set_reference(turned, X, e1, e2);

@@ -20,7 +20,7 @@ inline wall::DfdParameters helical(double poisson_ratio) {
 }
 
 inline ProblemInput fibre_input(Element element, const wall::LawParameters& material,
-                         std::vector<std::pair<std::string, bc::Condition>> conditions) {
+                                std::vector<std::pair<std::string, bc::Condition>> conditions) {
   ProblemInput in = solid_input({element}, std::move(conditions));
   in.wall->material = material;
   in.wall->fibre_frame = wall::CylindricalFrame{};

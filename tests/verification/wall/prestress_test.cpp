@@ -23,18 +23,19 @@ struct Prestressed {
   PrestressResult result;
   double moved;  ///< largest displacement when the load acts again, over the inner radius
   WallStress stress;
-  double mean_hoop;  ///< mean over the elements [Pa]
+  double mean_hoop;  ///< mean over the thickness [Pa]
 };
 
+/// Over the thickness: with the weight 1/r a volume integral is one over the radius.
 double mean_hoop_stress(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state) {
   double sums[2] = {};
   for_each_element(mesh, model, state, [&](const ElementData& e) {
     const Vec3<double> x = 0.25 * ((e.X[0] + e.X[1]) + (e.X[2] + e.X[3]));
     const double r = std::hypot(x[0], x[1]), t[2] = {-x[1] / r, x[0] / r};
     const auto s = cauchy_stress(e, model);
-    const double volume = fe::gradients(e.X).volume;
-    sums[0] += volume * (t[0] * t[0] * s(0, 0) + 2 * t[0] * t[1] * s(0, 1) + t[1] * t[1] * s(1, 1));
-    sums[1] += volume;
+    const double weight = fe::gradients(e.X).volume / r;
+    sums[0] += weight * (t[0] * t[0] * s(0, 0) + 2 * t[0] * t[1] * s(0, 1) + t[1] * t[1] * s(1, 1));
+    sums[1] += weight;
   });
   parallel::global_sum(mesh.comm, sums);
   return sums[0] / sums[1];
@@ -51,9 +52,12 @@ Prestressed prestress(const mesh::CylinderSizes& cylinder, ProblemInput in, cons
   State state = r.state;
   const auto report = problem.solve_static(state, 1.0);
   EXPECT_TRUE(report.converged) << report.failure;
-  found.moved = largest(mesh, [&](std::int32_t i) {
-    return std::hypot(state.displacement[at(i)], state.displacement[at(i) + 1], state.displacement[at(i) + 2]);
-  }) / cylinder.inner;
+  found.moved = largest(mesh,
+                        [&](std::int32_t i) {
+                          return std::hypot(state.displacement[at(i)], state.displacement[at(i) + 1],
+                                            state.displacement[at(i) + 2]);
+                        }) /
+                cylinder.inner;
   found.stress = wall_stress(mesh, problem.wall_model(), state, cylinder.inner);
   found.mean_hoop = mean_hoop_stress(mesh, problem.wall_model(), state);
   print("; moves by %.1e R; hoop %.2f kPa inside, mean %.2f kPa\n", found.moved, found.stress.hoop_inner / 1e3,
@@ -62,34 +66,37 @@ Prestressed prestress(const mesh::CylinderSizes& cylinder, ProblemInput in, cons
 }
 
 std::vector<PrestressSettings> methods() {
-  return {{.update = Update::first_piola, .tolerance = 1e-8},
-          {.update = Update::second_piola, .tolerance = 1e-8},
-          {.method = Method::stretch, .tolerance = 1e-8}};
+  return {{.tolerance = 5e-7},
+          {.update = Update::second_piola, .tolerance = 5e-7},
+          {.method = Method::stretch, .tolerance = 5e-7}};
 }
 
-std::vector<std::pair<std::string, bc::Condition>> loads() {
-  return plane_strain(bc::Pressure{bc::WaveformInput{p}}, bc::Free{});
+/// Dead, as the forces of the flow are, or following the wall: where nothing moves it is the same.
+std::vector<std::pair<std::string, bc::Condition>> loads(bool follower = false) {
+  return plane_strain(bc::Pressure{bc::WaveformInput{p}, follower}, bc::Free{});
 }
 
-/// Mean hoop stress p r_i / h follows from equilibrium alone, whatever the law.
+/// Asked: 1e-4 of the radius, which is the default tolerance of 1 um. Mean hoop stress p r_i / h follows from
+/// equilibrium alone, whatever the law.
 TEST(Prestress, ThinTubeCarriesTheHoopStressOfEquilibrium) {
-  const mesh::CylinderSizes thin{.inner = 0.012, .outer = 0.0125, .length = 0.001, .cells_radial = 2, .cells_around = 48,
-                                 .cells_along = 2};
+  const mesh::CylinderSizes thin{
+      .inner = 0.012, .outer = 0.0125, .length = 0.001, .cells_radial = 2, .cells_around = 48, .cells_along = 2};
   const double exact = p * thin.inner / (thin.outer - thin.inner);
   print("thin tube, R 12 mm, h 0.5 mm, 80 mmHg: p R / h = %.2f kPa\n", exact / 1e3);
   for (const Element element : {Element::mixed, Element::displacement})
-    for (const auto& settings : methods()) {
-      const double nu = element == Element::mixed ? 0.49 : 0.3;
-      print(" %-12s nu %.2f", verification::name(element), nu);
-      const auto found = prestress(thin, solid_input({element, 4e5, nu}, loads()), settings);
-      EXPECT_LT(found.moved, 1e-4);
-      EXPECT_LT(std::abs(found.mean_hoop / exact - 1), 0.01);
-    }
+    for (const bool follower : {false, true})
+      for (const auto& settings : methods()) {
+        const double nu = element == Element::mixed ? 0.49 : 0.3;
+        print(" %-12s nu %.2f %-8s", verification::name(element), nu, follower ? "follower" : "dead");
+        const auto found = prestress(thin, solid_input({element, 4e5, nu}, loads(follower)), settings);
+        EXPECT_LT(found.moved, 1e-4);
+        EXPECT_LT(std::abs(found.mean_hoop / exact - 1), 0.01);
+      }
 }
 
 TEST(Prestress, ThickTubeHasTheStressOfLame) {
-  const mesh::CylinderSizes thick{.inner = 0.010, .outer = 0.014, .length = 0.001, .cells_radial = 6, .cells_around = 32,
-                                  .cells_along = 1};
+  const mesh::CylinderSizes thick{
+      .inner = 0.010, .outer = 0.014, .length = 0.001, .cells_radial = 6, .cells_around = 32, .cells_along = 1};
   const double a2 = thick.inner * thick.inner, b2 = thick.outer * thick.outer;
   const double exact = p * (a2 + b2) / (b2 - a2), mean = p * thick.inner / (thick.outer - thick.inner);
   print("thick tube, 10 to 14 mm, 80 mmHg: Lame %.2f kPa inside, mean %.2f kPa\n", exact / 1e3, mean / 1e3);
@@ -99,7 +106,8 @@ TEST(Prestress, ThickTubeHasTheStressOfLame) {
       const auto found = prestress(thick, solid_input({Element::mixed, mu, 0.49}, loads()), settings);
       EXPECT_LT(found.moved, 1e-4);
       EXPECT_LT(std::abs(found.mean_hoop / mean - 1), 0.01);
-      if (mu == 1e6) EXPECT_LT(std::abs(found.stress.hoop_inner / exact - 1), 0.02);
+      if (mu < 1e6) continue;  // a soft wall is not in the range of Lame
+      EXPECT_LT(std::abs(found.stress.hoop_inner / exact - 1), 0.01);
     }
 }
 

@@ -80,7 +80,9 @@ Case wall_case(const Case& c, const std::vector<std::string>& wall_faces) {
 /// A wall that inertia holds in a run may be loose in statics.
 void check_support(const Case& wall, const std::vector<std::string>& wall_faces,
                    const std::vector<std::string>& interface_faces) {
-  bc::BoundaryCase boundary{.conditions = wall.boundary, .static_wall = true};
+  bc::BoundaryCase boundary;
+  boundary.conditions = wall.boundary;
+  boundary.static_wall = true;
   for (const auto& face : wall_faces) boundary.faces.push_back({face, bc::Field::wall});
   for (const auto& face : interface_faces) boundary.conditions.emplace_back(face, bc::Free{});
   auto problems = bc::check_boundary(boundary);
@@ -135,7 +137,7 @@ class PrestressRun {
   mesh::DistributedMesh lumen_, wall_;
   coupling::State flow_;
   SteadyRecord steady_;
-  std::vector<double> forces_;  ///< of the flow, on rank 0: [wall node in file order][4], N
+  std::vector<double> forces_;       ///< of the flow, on rank 0: [wall node in file order][4], N
   std::optional<CsvTable> history_;  ///< rank 0
 };
 
@@ -213,8 +215,8 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
   std::optional<parallel::Progress> bar;
   bar.emplace(*log_, "steady flow", 0.0, flow.steps);
   steady_ = step_to_steady_state(problem, flow_, flow, [&](const SteadyRecord& r) {
-    bar->update(r.step, fmt::format("velocity changes by {:.1e}, pressure by {:.1e}", r.velocity_change,
-                                    r.pressure_change));
+    bar->update(r.step,
+                fmt::format("velocity changes by {:.1e}, pressure by {:.1e}", r.velocity_change, r.pressure_change));
   });
   bar.reset();
   const auto& units = case_.output.units;
@@ -225,9 +227,10 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
       units.velocity, steady_.largest_pressure * per_si(units.pressure, config::dimension::pressure), units.pressure,
       steady_.velocity_change, steady_.pressure_change));
   if (const double change = std::max(steady_.velocity_change, steady_.pressure_change); change > flow.tolerance)
-    log_->warning(fmt::format("the flow is not steady: asked were changes of {:.1e} in a step. The prestress belongs "
-                              "to its last instant",
-                              flow.tolerance));
+    log_->warning(
+        fmt::format("the flow is not steady: asked were changes of {:.1e} in a step. The prestress belongs "
+                    "to its last instant",
+                    flow.tolerance));
   write_checkpoint(file, lumen_, {flow_, {}, 0, lumen_hash_});
 }
 
@@ -252,14 +255,12 @@ void PrestressRun::take_forces(const coupling::Problem& problem) {
 }
 
 void PrestressRun::find_flow() {
-  const auto conditions =
-      steady_conditions(case_.boundary, lumen_faces_, lumen_interface_, settings().flow.value());
+  const auto conditions = steady_conditions(case_.boundary, lumen_faces_, lumen_interface_, settings().flow.value());
   const Case flow = flow_case(case_, conditions);
   lumen_ = mesh::distribute(lumen_part_.data, comm_);
   coupling::Problem problem(lumen_, problem_input(flow));
-  parallel::on_root(comm_, [&] {
-    mesh::write_atomically(folder_ / "boundary.yaml", conditions_text(conditions, lumen_interface_));
-  });
+  parallel::on_root(
+      comm_, [&] { mesh::write_atomically(folder_ / "boundary.yaml", conditions_text(conditions, lumen_interface_)); });
   flow_ = problem.initial_state();
   take_steps_of_flow(problem);
   write_flow(problem, flow);
@@ -297,9 +298,10 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
 void PrestressRun::follow(const coupling::PrestressRecord& r) {
   const std::string unit = case_.output.units.length;
   const double displacement = r.displacement * per_si(unit, config::dimension::length);
-  log_->info(fmt::format("iteration {}: largest displacement {:.4e} {}, {} of the update, {} load steps, newton {}, "
-                         "linear {}, {:.2f} s",
-                         r.iteration, displacement, unit, r.relaxation, r.load_steps, r.newton, r.linear, r.seconds));
+  log_->info(
+      fmt::format("iteration {}: largest displacement {:.3e} {}, {:.3g} of the update, {} load steps, newton {}, "
+                  "linear {}, {:.2f} s",
+                  r.iteration, displacement, unit, r.relaxation, r.load_steps, r.newton, r.linear, r.seconds));
   parallel::on_root(comm_, [&] {
     history_->append(r.iteration, std::array{displacement, r.relaxation, static_cast<double>(r.load_steps),
                                              static_cast<double>(r.newton), static_cast<double>(r.linear), r.seconds});
@@ -309,16 +311,18 @@ void PrestressRun::follow(const coupling::PrestressRecord& r) {
 void PrestressRun::plot_history(const std::vector<coupling::PrestressRecord>& history) {
   const std::string unit = case_.output.units.length;
   const double factor = per_si(unit, config::dimension::length);
-  Series displacement{.name = "largest displacement", .x = {}, .y = {}, .markers = true}, asked{
-      .name = "asked", .x = {}, .y = {}, .dashed = true};
+  Series displacement{.name = "largest displacement", .x = {}, .y = {}, .markers = true},
+      asked{.name = "asked", .x = {}, .y = {}, .dashed = true};
   for (const auto& r : history) {
     displacement.x.push_back(r.iteration), displacement.y.push_back(factor * r.displacement);
     asked.x.push_back(r.iteration), asked.y.push_back(factor * settings().fixed_point.tolerance);
   }
   parallel::on_root(comm_, [&] {
     write_plot((folder_ / "fixed_point.svg").string(), {displacement, asked},
-               {.title = "Fixed point of the prestress", .x_label = "iteration",
-                .y_label = fmt::format("displacement under the load [{}]", unit), .log_y = true});
+               {.title = "Fixed point of the prestress",
+                .x_label = "iteration",
+                .y_label = fmt::format("displacement under the load [{}]", unit),
+                .log_y = true});
   });
 }
 
@@ -332,8 +336,7 @@ void PrestressRun::write_prestress_file(const coupling::WallPrestress& prestress
     values.insert(values.end(), prestress.values[r].begin(), prestress.values[r].begin() + n * owned);
   }
   const auto all = parallel::gather_by_original_id({comm_, ids, wall_.global_elements}, values, n);
-  parallel::on_root(comm_,
-                    [&] { write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
+  parallel::on_root(comm_, [&] { write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
 }
 
 void PrestressRun::write_stress(const coupling::Problem& problem, const coupling::State& state) {
@@ -345,8 +348,7 @@ void PrestressRun::write_stress(const coupling::Problem& problem, const coupling
 void PrestressRun::write_start(const coupling::State& wall) {
   const auto of_wall = parallel::gather_by_original_id(node_order(wall_), wall.velocity_pressure, 4);
   std::vector<double> of_lumen, all;
-  if (case_.solves_fluid())
-    of_lumen = parallel::gather_by_original_id(node_order(lumen_), flow_.velocity_pressure, 4);
+  if (case_.solves_fluid()) of_lumen = parallel::gather_by_original_id(node_order(lumen_), flow_.velocity_pressure, 4);
   parallel::on_root(comm_, [&] {
     all.assign(4 * whole_.data.points.size(), 0.0);
     for (std::size_t k = 0; k < wall_part_.nodes.size(); ++k)
@@ -356,7 +358,8 @@ void PrestressRun::write_start(const coupling::State& wall) {
         all[4 * static_cast<std::size_t>(lumen_part_.nodes[k]) + c] = of_lumen[4 * k + c];
   });
   const auto mesh = mesh::distribute(whole_.data, comm_);
-  Checkpoint start{.mesh_hash = mesh_hash_};
+  Checkpoint start;
+  start.mesh_hash = mesh_hash_;
   for (auto* field : {&start.state.velocity_pressure, &start.state.acceleration, &start.state.displacement,
                       &start.state.displacement_rate})
     field->assign(at(mesh.nodes()), 0.0);

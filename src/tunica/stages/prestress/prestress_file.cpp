@@ -63,8 +63,7 @@ void add_invariants(vtkUnstructuredGrid* grid, std::span<const double> values) {
              principal = array("first principal stress [kPa]", 1, cells);
   for (std::size_t e = 0; e < cells; ++e) {
     wall::Symmetric<double> S0;
-    for (std::size_t k = 0; k < wall::voigt_size; ++k)
-      S0[static_cast<int>(k)] = values[wall::voigt_size * e + k];
+    for (std::size_t k = 0; k < wall::voigt_size; ++k) S0[static_cast<int>(k)] = values[wall::voigt_size * e + k];
     equivalent->SetValue(static_cast<vtkIdType>(e), wall::von_mises(S0) / kPa);
     principal->SetValue(static_cast<vtkIdType>(e), wall::principal_stresses(S0)[0] / kPa);
   }
@@ -93,9 +92,10 @@ std::string mismatch(const mesh::VtkCells& file, const mesh::MeshData& data, con
       const auto& x = file.points[static_cast<std::size_t>(file.connectivity[first + a])];
       const auto& X = data.points[static_cast<std::size_t>(corners[a])];
       if (!(norm(x - X) <= 1e-9 * size))
-        return fmt::format("has corner {} of element {} at ({:.6g}, {:.6g}, {:.6g}) m, the wall at ({:.6g}, {:.6g}, "
-                           "{:.6g}) m",
-                           a + 1, id, x[0], x[1], x[2], X[0], X[1], X[2]);
+        return fmt::format(
+            "has corner {} of element {} at ({:.6g}, {:.6g}, {:.6g}) m, the wall at ({:.6g}, {:.6g}, "
+            "{:.6g}) m",
+            a + 1, id, x[0], x[1], x[2], X[0], X[1], X[2]);
     }
   }
   return {};

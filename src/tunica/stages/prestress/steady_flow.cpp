@@ -114,8 +114,9 @@ SteadyRecord step_to_steady_state(coupling::Problem& problem, coupling::State& s
     coupling::StepReport report;
     for (int halvings = 0; !(report = problem.advance(state, dt)).converged; ++halvings, dt *= 0.5)
       if (halvings == most_halvings)
-        throw SolverError(fmt::format("the steady flow failed in step {} from t = {:.6g} s with steps down to {:.3g} s: {}",
-                                      step, state.time, dt, report.failure));
+        throw SolverError(
+            fmt::format("the steady flow failed in step {} from t = {:.6g} s with steps down to {:.3g} s: {}", step,
+                        state.time, dt, report.failure));
     record = compare(problem.mesh(), before, state);
     record.step = step;
     follow(record);
