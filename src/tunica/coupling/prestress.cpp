@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/anderson.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_element.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -20,7 +21,8 @@ using Update = PrestressSettings::Update;
 
 constexpr int most_load_steps = 256;
 constexpr double growth = 1.5;  // of the displacement that an update may cause
-constexpr double least_relaxation = 1.0 / 128, most_relaxation = 4.0;
+constexpr double least_relaxation = 1.0 / 128;
+constexpr std::size_t memory = 5;  // points of the acceleration
 
 WallPrestress without_prestress(const mesh::DistributedMesh& mesh, Method method) {
   WallPrestress p{.kind = method == Method::stress ? wall::PrestressKind::stress : wall::PrestressKind::stretch};
@@ -48,6 +50,12 @@ Mat3<double> motion_gradient(const mesh::DistributedMesh& mesh, const State& sta
   return wall::deformation_gradient(e);
 }
 
+std::vector<double> flat(const WallPrestress& prestress) {
+  std::vector<double> values;
+  for (const auto& region : prestress.values) values.insert(values.end(), region.begin(), region.end());
+  return values;
+}
+
 class FixedPoint {
  public:
   FixedPoint(Problem& problem, const PrestressSettings& settings, double load_time)
@@ -66,15 +74,12 @@ class FixedPoint {
   }
   void find_prestressed_nodes();
   double largest_displacement(const State& state) const;
-  /// Share of the next update by Aitken's rule (5.6), from the displacements that the last update, with the share
-  /// `relaxation`, has left of those before it.
-  double next_relaxation(double relaxation, const State& before, const State& after) const;
   /// Takes `state` to equilibrium under the whole load; false when Newton's method fails.
   bool load(State& state, int steps, PrestressRecord& record);
   bool load_from_rest(State& state, PrestressRecord& record);
   WallPrestress updated(const State& loaded) const;
-  /// Prestress between `from` and `to`.
-  WallPrestress between(const WallPrestress& from, const WallPrestress& to, double share) const;
+  void set(const std::vector<double>& values);
+  std::vector<double> displacements(const State& state) const;  ///< [prestressed owned node][3]
   /// What the next solution starts from: back in the imaged shape.
   State rest(const State& loaded) const;
 
@@ -109,18 +114,12 @@ double FixedPoint::largest_displacement(const State& state) const {
   return parallel::global_max(mesh_.comm, largest);
 }
 
-double FixedPoint::next_relaxation(double relaxation, const State& before, const State& after) const {
-  double sums[2] = {};  // before . change, change . change
-  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i) {
-    if (!prestressed_[static_cast<std::size_t>(i)]) continue;
-    const auto old = vector_at(before.displacement.data(), i);
-    const auto change = vector_at(after.displacement.data(), i) - old;
-    sums[0] += dot(old, change);
-    sums[1] += dot(change, change);
-  }
-  parallel::global_sum(mesh_.comm, sums);
-  if (!(sums[1] > 0)) return relaxation;
-  return std::clamp(-relaxation * sums[0] / sums[1], least_relaxation, most_relaxation);
+std::vector<double> FixedPoint::displacements(const State& state) const {
+  std::vector<double> u;
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i)
+    for (std::size_t c = 0; c < 3 && prestressed_[static_cast<std::size_t>(i)]; ++c)
+      u.push_back(state.displacement[at(i) + c]);
+  return u;
 }
 
 bool FixedPoint::load(State& state, int steps, PrestressRecord& record) {
@@ -174,14 +173,6 @@ WallPrestress FixedPoint::updated(const State& loaded) const {
   return next;
 }
 
-WallPrestress FixedPoint::between(const WallPrestress& from, const WallPrestress& to, double share) const {
-  WallPrestress result = to;
-  for (std::size_t r = 0; r < result.values.size(); ++r)
-    for (std::size_t k = 0; k < result.values[r].size(); ++k)
-      result.values[r][k] = from.values[r][k] + share * (to.values[r][k] - from.values[r][k]);
-  return result;
-}
-
 State FixedPoint::rest(const State& loaded) const {
   State state = loaded;
   std::fill(state.displacement.begin(), state.displacement.end(), 0.0);
@@ -191,10 +182,17 @@ State FixedPoint::rest(const State& loaded) const {
   return state;
 }
 
+void FixedPoint::set(const std::vector<double>& values) {
+  auto value = values.begin();
+  for (auto& region : result_.prestress.values)
+    for (double& component : region) component = *value++;
+  problem_.set_prestress(result_.prestress);
+}
+
 PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)>& follow) {
   double relaxation = settings_.relaxation, last = std::numeric_limits<double>::infinity();
-  WallPrestress from, to;  // of the last update
-  State before;            // loaded, when it was made
+  std::vector<double> x, g;  // prestress that was solved with last, and its update
+  Anderson anderson(mesh_.comm, memory);
   problem_.set_prestress(result_.prestress);
   for (int k = 1; k <= settings_.max_iterations; ++k) {
     PrestressRecord record{.iteration = k, .relaxation = k == 1 ? 0.0 : relaxation};
@@ -211,21 +209,26 @@ PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)
     if (k == 1 && !solved) return std::move(result_);
     if (solved && record.displacement < growth * last) {
       last = record.displacement;
-      from = result_.prestress, to = updated(loaded);
+      x = flat(result_.prestress);
+      g = flat(updated(loaded));
+      for (std::size_t i = 0; i < g.size(); ++i) g[i] -= x[i];
       result_.state = rest(loaded);
-      if (k > 1) relaxation = next_relaxation(relaxation, before, loaded);
-      before = std::move(loaded);
-    } else {  // back to the last update, of which a smaller share is taken
-      relaxation *= 0.5;
-      if (relaxation < least_relaxation) {
-        if (solved)
-          result_.failure = fmt::format("the displacement grows from {:.3e} m to {:.3e} m with {:.3g} of the update",
-                                        last, record.displacement, 2 * relaxation);
-        return std::move(result_);
-      }
+      if (k > 1) relaxation = std::min(settings_.relaxation, 2 * relaxation);
+      set(anderson.next(x, g, displacements(loaded), relaxation));
+      continue;
     }
-    result_.prestress = between(from, to, relaxation);
-    problem_.set_prestress(result_.prestress);
+    // Back to the last point, from which a smaller step is made.
+    relaxation *= 0.5;
+    if (relaxation < least_relaxation) {
+      if (solved)
+        result_.failure = fmt::format("the displacement grows from {:.3e} m to {:.3e} m with {:.3g} of the update",
+                                      last, record.displacement, 2 * relaxation);
+      return std::move(result_);
+    }
+    anderson.forget();
+    std::vector<double> nearer = x;
+    for (std::size_t i = 0; i < x.size(); ++i) nearer[i] += relaxation * g[i];
+    set(nearer);
   }
   result_.failure = fmt::format("after {} iterations the largest displacement is {:.3e} m, allowed are {:.3e} m",
                                 settings_.max_iterations, last, settings_.tolerance);
@@ -255,7 +258,7 @@ config::Schema<PrestressSettings> PrestressSettings::schema() {
       .integer("max_iterations", &PrestressSettings::max_iterations, range(1, 10000), "Of the fixed point")
       .by_default()
       .number("relaxation", &PrestressSettings::relaxation, range(0.01, 1),
-              "Share of the first update that is taken; later ones follow from how the displacement falls")
+              "Share of an update that is taken; halved by itself where the displacement grows")
       .by_default()
       .integer("load_steps", &PrestressSettings::load_steps, range(1, 256),
                "Equal steps in which the first iteration applies the load; doubled by itself where that fails")

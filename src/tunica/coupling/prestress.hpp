@@ -24,7 +24,7 @@ struct PrestressSettings {
   std::vector<std::string> exclude{};  ///< wall regions that stay free of prestress
   double tolerance = 1e-6;             ///< largest displacement under the load [m]
   int max_iterations = 60;
-  double relaxation = 1.0;  ///< share of the first update that is taken
+  double relaxation = 1.0;  ///< share of an update that is taken
   int load_steps = 1;       ///< in which the first iteration applies the load; doubled where that fails
 
   static config::Schema<PrestressSettings> schema();
