@@ -73,7 +73,7 @@ class FixedPoint {
     return std::find(settings_.exclude.begin(), settings_.exclude.end(), region.name) != settings_.exclude.end();
   }
   void find_prestressed_nodes();
-  double largest_displacement(const State& state) const;
+  void find_largest_displacement(const State& state, PrestressRecord& record) const;
   /// Takes `state` to equilibrium under the whole load; false when Newton's method fails.
   bool load(State& state, int steps, PrestressRecord& record);
   bool load_from_rest(State& state, PrestressRecord& record);
@@ -106,12 +106,20 @@ void FixedPoint::find_prestressed_nodes() {
     throw InputError("prestress.exclude", "the mesh has no wall region " + left.front(), "use one of: " + names);
 }
 
-double FixedPoint::largest_displacement(const State& state) const {
+void FixedPoint::find_largest_displacement(const State& state, PrestressRecord& record) const {
   double largest = 0.0;
-  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i)
-    if (prestressed_[static_cast<std::size_t>(i)])
-      largest = std::max(largest, norm(vector_at(state.displacement.data(), i)));
-  return parallel::global_max(mesh_.comm, largest);
+  Vec3<double> place{};
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i) {
+    const double u = norm(vector_at(state.displacement.data(), i));
+    if (prestressed_[static_cast<std::size_t>(i)] && u > largest) largest = u, place = mesh_.points[i];
+  }
+  record.displacement = parallel::global_max(mesh_.comm, largest);
+  const std::int64_t rank = parallel::rank(mesh_.comm), ranks = parallel::size(mesh_.comm);
+  const bool here = parallel::global_min(mesh_.comm, largest == record.displacement ? rank : ranks) == rank;
+  double x[3] = {};
+  for (int c = 0; c < 3 && here; ++c) x[c] = place[c];
+  parallel::global_sum(mesh_.comm, x);
+  record.place = {{x[0], x[1], x[2]}};
 }
 
 std::vector<double> FixedPoint::displacements(const State& state) const {
@@ -198,7 +206,8 @@ PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)
     PrestressRecord record{.iteration = k, .relaxation = k == 1 ? 0.0 : relaxation};
     State loaded = result_.state;
     const bool solved = k == 1 ? load_from_rest(loaded, record) : load(loaded, 1, record);
-    record.displacement = solved ? largest_displacement(loaded) : std::numeric_limits<double>::quiet_NaN();
+    record.displacement = std::numeric_limits<double>::quiet_NaN();
+    if (solved) find_largest_displacement(loaded, record);
     result_.history.push_back(record);
     follow(record);
     if (solved && record.displacement <= settings_.tolerance) {

@@ -33,7 +33,8 @@ struct PrestressSettings {
 /// One iteration of the fixed point.
 struct PrestressRecord {
   int iteration = 0;        ///< from 1
-  double displacement = 0;  ///< largest |u| under the load of nodes of prestressed elements [m]
+  double displacement = 0;  ///< largest |u| under the load of nodes of prestressed elements [m]; NaN when unsolved
+  Vec3<double> place{};     ///< where, in the imaged shape [m]
   double relaxation = 0;    ///< of the update before it; 0 in the first iteration
   int load_steps = 0;
   int newton = 0, linear = 0;  ///< iterations

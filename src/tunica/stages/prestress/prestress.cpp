@@ -298,10 +298,12 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
 void PrestressRun::follow(const coupling::PrestressRecord& r) {
   const std::string unit = case_.output.units.length;
   const double displacement = r.displacement * per_si(unit, config::dimension::length);
-  log_->info(
-      fmt::format("iteration {}: largest displacement {:.3e} {}, {:.3g} of the update, {} load steps, newton {}, "
-                  "linear {}, {:.2f} s",
-                  r.iteration, displacement, unit, r.relaxation, r.load_steps, r.newton, r.linear, r.seconds));
+  const Vec3<double> place = per_si(unit, config::dimension::length) * r.place;
+  log_->info(fmt::format(
+      "iteration {}: {:.3e} {} near ({:.4g}, {:.4g}, {:.4g}); {:.3g} of the update, {}, newton {}, "
+      "linear {}, {:.2f} s",
+      r.iteration, displacement, unit, place[0], place[1], place[2], r.relaxation,
+      r.load_steps == 1 ? "1 load step" : fmt::format("{} load steps", r.load_steps), r.newton, r.linear, r.seconds));
   parallel::on_root(comm_, [&] {
     history_->append(r.iteration, std::array{displacement, r.relaxation, static_cast<double>(r.load_steps),
                                              static_cast<double>(r.newton), static_cast<double>(r.linear), r.seconds});
