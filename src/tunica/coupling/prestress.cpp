@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/anderson.hpp"
@@ -58,15 +59,18 @@ std::vector<double> flat(const WallPrestress& prestress) {
 
 class FixedPoint {
  public:
-  FixedPoint(Problem& problem, const PrestressSettings& settings, double load_time)
-      : problem_(problem), settings_(settings), mesh_(problem.mesh()) {
+  using Follow = std::function<void(const PrestressRecord&)>;
+  FixedPoint(Problem& problem, const PrestressSettings& settings, double load_time, const Follow& follow)
+      : problem_(problem),
+        settings_(settings),
+        mesh_(problem.mesh()),
+        follow_(follow),
+        start_(problem.initial_state()) {
     find_prestressed_nodes();
-    result_.prestress = without_prestress(mesh_, settings.method);
-    result_.state = problem.initial_state();
-    result_.state.time = load_time;
+    start_.time = load_time;
   }
 
-  PrestressResult run(const std::function<void(const PrestressRecord&)>& follow);
+  PrestressResult run();
 
  private:
   bool excluded(const mesh::Region& region) const {
@@ -74,9 +78,11 @@ class FixedPoint {
   }
   void find_prestressed_nodes();
   void find_largest_displacement(const State& state, PrestressRecord& record) const;
-  /// Takes `state` to equilibrium under the whole load; false when Newton's method fails.
-  bool load(State& state, int steps, PrestressRecord& record);
-  bool load_from_rest(State& state, PrestressRecord& record);
+  /// Equilibrium under a share of the load with the present prestress, from rest; none when Newton's method fails.
+  std::optional<State> solve(double load, double relaxation);
+  /// Back to no prestress, then all but the last of `steps` shares of the load, with an update after each.
+  bool ramp(int steps);
+  std::optional<State> first_solution();
   WallPrestress updated(const State& loaded) const;
   void set(const std::vector<double>& values);
   std::vector<double> displacements(const State& state) const;  ///< [prestressed owned node][3]
@@ -86,6 +92,8 @@ class FixedPoint {
   Problem& problem_;
   const PrestressSettings& settings_;
   const mesh::DistributedMesh& mesh_;
+  const Follow& follow_;
+  State start_;                    ///< undeformed
   std::vector<char> prestressed_;  ///< [owned node]
   PrestressResult result_;
 };
@@ -130,26 +138,42 @@ std::vector<double> FixedPoint::displacements(const State& state) const {
   return u;
 }
 
-bool FixedPoint::load(State& state, int steps, PrestressRecord& record) {
-  record.load_steps = steps;
-  for (int k = 1; k <= steps; ++k) {
-    const StepReport report = problem_.solve_static(state, static_cast<double>(k) / steps);
-    record.newton += static_cast<int>(report.iterations.size());
-    record.linear += report.linear_iterations();
-    record.seconds += report.timings.total;
-    result_.failure = report.failure;
-    if (!report.converged) return false;
+std::optional<State> FixedPoint::solve(double load, double relaxation) {
+  State loaded = result_.state;
+  const StepReport report = problem_.solve_static(loaded, load);
+  PrestressRecord& record = result_.history.emplace_back();
+  record.iteration = static_cast<int>(result_.history.size());
+  record.load = load;
+  record.relaxation = relaxation;
+  record.newton = static_cast<int>(report.iterations.size());
+  record.linear = report.linear_iterations();
+  record.seconds = report.timings.total;
+  record.displacement = std::numeric_limits<double>::quiet_NaN();
+  if (report.converged) find_largest_displacement(loaded, record);
+  result_.failure = report.failure;
+  follow_(record);
+  if (!report.converged) return std::nullopt;
+  return loaded;
+}
+
+bool FixedPoint::ramp(int steps) {
+  result_.prestress = without_prestress(mesh_, settings_.method);
+  result_.state = start_;
+  problem_.set_prestress(result_.prestress);
+  for (int k = 1; k < steps; ++k) {
+    const auto loaded = solve(static_cast<double>(k) / steps, k == 1 ? 0.0 : 1.0);
+    if (!loaded) return false;
+    set(flat(updated(*loaded)));
+    result_.state = rest(*loaded);
   }
   return true;
 }
 
-bool FixedPoint::load_from_rest(State& state, PrestressRecord& record) {
-  const State start = state;
-  for (int steps = settings_.load_steps; steps <= most_load_steps; steps *= 2) {
-    state = start;
-    if (load(state, steps, record)) return true;
-  }
-  return false;
+std::optional<State> FixedPoint::first_solution() {
+  for (int steps = settings_.load_steps; steps <= most_load_steps; steps *= 2)
+    if (ramp(steps))
+      if (auto loaded = solve(1.0, steps == 1 ? 0.0 : 1.0)) return loaded;
+  return std::nullopt;
 }
 
 // (5.3) to (5.5). `loaded` is in equilibrium with the present prestress.
@@ -197,50 +221,41 @@ void FixedPoint::set(const std::vector<double>& values) {
   problem_.set_prestress(result_.prestress);
 }
 
-PrestressResult FixedPoint::run(const std::function<void(const PrestressRecord&)>& follow) {
+PrestressResult FixedPoint::run() {
   double relaxation = settings_.relaxation, last = std::numeric_limits<double>::infinity();
   std::vector<double> x, g;  // prestress that was solved with last, and its update
   Anderson anderson(mesh_.comm, memory);
-  problem_.set_prestress(result_.prestress);
-  for (int k = 1; k <= settings_.max_iterations; ++k) {
-    PrestressRecord record{.iteration = k, .relaxation = k == 1 ? 0.0 : relaxation};
-    State loaded = result_.state;
-    const bool solved = k == 1 ? load_from_rest(loaded, record) : load(loaded, 1, record);
-    record.displacement = std::numeric_limits<double>::quiet_NaN();
-    if (solved) find_largest_displacement(loaded, record);
-    result_.history.push_back(record);
-    follow(record);
-    if (solved && record.displacement <= settings_.tolerance) {
-      result_.state = rest(loaded);
+  auto loaded = first_solution();
+  if (!loaded) return std::move(result_);
+  for (int k = 1;; ++k) {
+    const double displacement = result_.history.back().displacement;
+    if (displacement <= settings_.tolerance) {
+      result_.state = rest(*loaded);
       result_.converged = true;
       return std::move(result_);
     }
-    if (k == 1 && !solved) return std::move(result_);
-    if (solved && record.displacement < growth * last) {
-      last = record.displacement;
+    if (k == settings_.max_iterations) break;
+    if (displacement < growth * last) {  // false for NaN
+      last = displacement;
       x = flat(result_.prestress);
-      g = flat(updated(loaded));
+      g = flat(updated(*loaded));
       for (std::size_t i = 0; i < g.size(); ++i) g[i] -= x[i];
-      result_.state = rest(loaded);
+      result_.state = rest(*loaded);
       if (k > 1) relaxation = std::min(settings_.relaxation, 2 * relaxation);
-      set(anderson.next(x, g, displacements(loaded), relaxation));
-      continue;
+      set(anderson.next(x, g, displacements(*loaded), relaxation));
+    } else {  // back to the last point, from which a smaller step is made
+      relaxation *= 0.5;
+      if (relaxation < least_relaxation) break;
+      anderson.forget();
+      std::vector<double> nearer = x;
+      for (std::size_t i = 0; i < x.size(); ++i) nearer[i] += relaxation * g[i];
+      set(nearer);
     }
-    // Back to the last point, from which a smaller step is made.
-    relaxation *= 0.5;
-    if (relaxation < least_relaxation) {
-      if (solved)
-        result_.failure = fmt::format("the displacement grows from {:.3e} m to {:.3e} m with {:.3g} of the update",
-                                      last, record.displacement, 2 * relaxation);
-      return std::move(result_);
-    }
-    anderson.forget();
-    std::vector<double> nearer = x;
-    for (std::size_t i = 0; i < x.size(); ++i) nearer[i] += relaxation * g[i];
-    set(nearer);
+    loaded = solve(1.0, relaxation);
   }
-  result_.failure = fmt::format("after {} iterations the largest displacement is {:.3e} m, allowed are {:.3e} m",
-                                settings_.max_iterations, last, settings_.tolerance);
+  result_.failure = fmt::format("after {} iterations the largest displacement is {:.3e} m, allowed are {:.3e} m{}",
+                                result_.history.size(), last, settings_.tolerance,
+                                result_.failure.empty() ? "" : "; the last solution failed: " + result_.failure);
   return std::move(result_);
 }
 
@@ -270,13 +285,13 @@ config::Schema<PrestressSettings> PrestressSettings::schema() {
               "Share of an update that is taken; halved by itself where the displacement grows")
       .by_default()
       .integer("load_steps", &PrestressSettings::load_steps, range(1, 256),
-               "Equal steps in which the first iteration applies the load; doubled by itself where that fails")
+               "Equal steps in which the load grows, with an update after each; doubled by itself where that fails")
       .by_default();
 }
 
 PrestressResult find_prestress(Problem& problem, const PrestressSettings& settings, double load_time,
                                const std::function<void(const PrestressRecord&)>& follow) {
-  return FixedPoint(problem, settings, load_time).run(follow);
+  return FixedPoint(problem, settings, load_time, follow).run();
 }
 
 }  // namespace tunica::coupling

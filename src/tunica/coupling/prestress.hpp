@@ -25,18 +25,18 @@ struct PrestressSettings {
   double tolerance = 1e-6;             ///< largest displacement under the load [m]
   int max_iterations = 60;
   double relaxation = 1.0;  ///< share of an update that is taken
-  int load_steps = 1;       ///< in which the first iteration applies the load; doubled where that fails
+  int load_steps = 1;       ///< in which the load grows, with an update after each; doubled where that fails
 
   static config::Schema<PrestressSettings> schema();
 };
 
 /// One iteration of the fixed point.
 struct PrestressRecord {
-  int iteration = 0;        ///< from 1
-  double displacement = 0;  ///< largest |u| under the load of nodes of prestressed elements [m]; NaN when unsolved
-  Vec3<double> place{};     ///< where, in the imaged shape [m]
-  double relaxation = 0;    ///< of the update before it; 0 in the first iteration
-  int load_steps = 0;
+  int iteration = 0;           ///< from 1
+  double displacement = 0;     ///< largest |u| under the load of nodes of prestressed elements [m]; NaN when unsolved
+  Vec3<double> place{};        ///< where, in the imaged shape [m]
+  double relaxation = 0;       ///< of the update before it; 0 in the first
+  double load = 0;             ///< share of the load
   int newton = 0, linear = 0;  ///< iterations
   double seconds = 0;
 };

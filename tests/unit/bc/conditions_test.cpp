@@ -106,7 +106,7 @@ TEST(ConditionSchema, PressureVelocityTractionSupport) {
   EXPECT_EQ(std::get<double>(support.pressure), 0.0);
   const auto varying = as<Support>("{support: {stiffness: {array: {name: ks, unit: N/cm^3}}, pressure: 2 kPa}}");
   EXPECT_EQ(std::get<FaceArray>(varying.stiffness).name, "ks");
-  EXPECT_EQ(std::get<FaceArray>(varying.stiffness).unit, 1e6);
+  EXPECT_DOUBLE_EQ(std::get<FaceArray>(varying.stiffness).unit, 1e6);
   EXPECT_EQ(std::get<double>(varying.pressure), 2e3);
   EXPECT_EQ(varying.arrays(), std::vector<std::string>{"ks"});
   EXPECT_TRUE(varying.holds());

@@ -300,13 +300,13 @@ void PrestressRun::follow(const coupling::PrestressRecord& r) {
   const double displacement = r.displacement * per_si(unit, config::dimension::length);
   const Vec3<double> place = per_si(unit, config::dimension::length) * r.place;
   log_->info(fmt::format(
-      "iteration {}: {:.3e} {} near ({:.4g}, {:.4g}, {:.4g}); {:.3g} of the update, {}, newton {}, "
+      "iteration {}: {:.3e} {} near ({:.4g}, {:.4g}, {:.4g}); {:.3g} of the update, load {:.3g}, newton {}, "
       "linear {}, {:.2f} s",
-      r.iteration, displacement, unit, place[0], place[1], place[2], r.relaxation,
-      r.load_steps == 1 ? "1 load step" : fmt::format("{} load steps", r.load_steps), r.newton, r.linear, r.seconds));
+      r.iteration, displacement, unit, place[0], place[1], place[2], r.relaxation, r.load, r.newton, r.linear,
+      r.seconds));
   parallel::on_root(comm_, [&] {
-    history_->append(r.iteration, std::array{displacement, r.relaxation, static_cast<double>(r.load_steps),
-                                             static_cast<double>(r.newton), static_cast<double>(r.linear), r.seconds});
+    history_->append(r.iteration, std::array{displacement, r.relaxation, r.load, static_cast<double>(r.newton),
+                                             static_cast<double>(r.linear), r.seconds});
   });
 }
 
@@ -403,7 +403,7 @@ void PrestressRun::find_wall() {
   parallel::on_root(comm_, [&] {
     history_.emplace(folder_ / "fixed_point.csv",
                      std::vector<std::string>{fmt::format("largest displacement [{}]", case_.output.units.length),
-                                              "share of the update", "load steps", "newton iterations",
+                                              "share of the update", "share of the load", "newton iterations",
                                               "linear iterations", "seconds"},
                      std::nullopt);
   });
