@@ -243,6 +243,12 @@ Boundaries::Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockP
     mesh.face(name);
     traction_fields_.push_back({index_of[name], field});
   }
+  for (const auto& [name, nodal] : input.wall_pressures) {
+    Load load{.face = index_of.at(mesh.face(name).name), .kind = Load::Kind::follower_pressure};
+    for (const auto& t : mesh.face(name).triangles)
+      load.pressures.push_back((nodal[t[0]] + nodal[t[1]] + nodal[t[2]]) / 3.0);
+    loads_.push_back(load);
+  }
   // no_slip wins on shared nodes.
   std::vector<char> still(mesh.nodes(), 0);
   for (const auto& [name, condition] : input.conditions)
@@ -354,10 +360,12 @@ void Boundaries::add_wall_load(const Load& load, double value, double factor, co
       case Load::Kind::dead_pressure:
         wall::add_pressure(s.X, value, r);
         break;
-      case Load::Kind::follower_pressure:
-        wall::add_pressure(x, value, r);
-        if (matrix != nullptr) wall::add_pressure_tangent(x, value, du, k);
+      case Load::Kind::follower_pressure: {
+        const double pressure = load.pressures.empty() ? value : factor * load.pressures[t];
+        wall::add_pressure(x, pressure, r);
+        if (matrix != nullptr) wall::add_pressure_tangent(x, pressure, du, k);
         break;
+      }
       default: {
         wall::TissueSupport<double> support = load.support[t];
         support.pressure *= factor;

@@ -356,6 +356,24 @@ TEST(Boundaries, SupportVariesOverItsFace) {
   EXPECT_THROW(force_with(bc::FaceArray{"k", -1e6}), InputError);
 }
 
+TEST(Boundaries, NodalPressureIsAFollowerPressure) {
+  auto input = test::fsi_input(test::pressure(0.0), test::pressure(0.0));
+  const auto residual_with = [&](const bc::Condition& outer, double nodal) {
+    input.boundary.conditions.back().second = outer;
+    const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+    input.boundary.wall_pressures.clear();
+    if (nodal != 0) input.boundary.wall_pressures.emplace_back("wall_outer", std::vector(mesh.points.size(), nodal));
+    const Bound b(test::fsi_tube(), input.boundary);
+    const auto fields = test::random_fields(b.mesh);
+    std::vector<double> residual(at(b.mesh.nodes()), 0.0);
+    b.boundaries.add_loads(0.0, 0.5, fields.view(), {0.0, 1.0}, residual, nullptr);
+    return residual;
+  };
+  const auto expected = residual_with(test::pressure(3e3), 0.0), found = residual_with(bc::Free{}, 3e3);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-15);
+}
+
 TEST(Boundaries, RefuseAFaceThatIsNotThere) {
   const auto mesh = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
   const auto pattern = assembly::make_pattern(mesh);

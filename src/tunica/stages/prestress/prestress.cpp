@@ -22,6 +22,7 @@
 #include "tunica/stages/prestress/prestress_file.hpp"
 #include "tunica/stages/prestress/steady_flow.hpp"
 #include "tunica/stages/problem_input.hpp"
+#include "tunica/wall/surface.hpp"
 
 namespace tunica::stages {
 
@@ -103,6 +104,9 @@ class PrestressRun {
   void write_flow(const coupling::Problem& problem, const Case& flow);
   void take_forces(const coupling::Problem& problem);
   void find_wall();
+  coupling::ProblemInput wall_input();
+  /// What is left of the flow's forces once the pressure has its part [N], [local node][4].
+  std::vector<double> forces_beside_pressure() const;
   void write_traction(const coupling::Problem& problem);
   void follow(const coupling::PrestressRecord& record);
   void plot_history(const std::vector<coupling::PrestressRecord>& history);
@@ -137,8 +141,9 @@ class PrestressRun {
   mesh::DistributedMesh lumen_, wall_;
   coupling::State flow_;
   SteadyRecord steady_;
-  std::vector<double> forces_;       ///< of the flow, on rank 0: [wall node in file order][4], N
-  std::optional<CsvTable> history_;  ///< rank 0
+  std::vector<double> forces_;        ///< of the flow [N], and its pressure [Pa]; rank 0, [wall node in file order][4]
+  std::vector<double> local_forces_;  ///< forces_ at the local nodes
+  std::optional<CsvTable> history_;   ///< rank 0
 };
 
 PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen)
@@ -242,13 +247,15 @@ void PrestressRun::write_flow(const coupling::Problem& problem, const Case& flow
 
 // From the lumen's node to the wall's node at the same place.
 void PrestressRun::take_forces(const coupling::Problem& problem) {
-  const auto of_lumen = parallel::gather_by_original_id(node_order(lumen_), forces_on_wall(problem), 4);
+  std::vector<double> forces = forces_on_wall(problem);
+  for (std::size_t k = 3; k < forces.size(); k += 4) forces[k] = flow_.velocity_pressure[k];
+  const auto of_lumen = parallel::gather_by_original_id(node_order(lumen_), forces, 4);
   parallel::on_root(comm_, [&] {
     const auto lumen = numbers_in(lumen_part_, whole_.data.points.size()),
                wall = numbers_in(wall_part_, whole_.data.points.size());
     forces_.assign(4 * wall_part_.nodes.size(), 0.0);
     for (const auto& [wall_node, lumen_node] : whole_.data.twins)
-      for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t c = 0; c < 4; ++c)
         forces_[4 * static_cast<std::size_t>(wall[static_cast<std::size_t>(wall_node)]) + c] =
             of_lumen[4 * static_cast<std::size_t>(lumen[static_cast<std::size_t>(lumen_node)]) + c];
   });
@@ -267,11 +274,38 @@ void PrestressRun::find_flow() {
   take_forces(problem);
 }
 
+// Pressure acts along the normal of the moved wall, and so does nearly all of the flow's forces. Were they held in
+// their directions, a flap between two lumens would tip over under the pair of pressures, (5.3).
+coupling::ProblemInput PrestressRun::wall_input() {
+  auto input = problem_input(wall_case(case_, wall_faces_));
+  local_forces_.assign(at(wall_.nodes()), 0.0);
+  if (!case_.solves_fluid()) return input;
+  parallel::scatter_by_original_id(node_order(wall_), forces_, local_forces_, 4);
+  wall_.halo.update(local_forces_, 4);
+  std::vector<double> pressure(static_cast<std::size_t>(wall_.nodes()));
+  for (std::size_t k = 0; k < pressure.size(); ++k) pressure[k] = local_forces_[4 * k + 3];
+  for (const auto& face : wall_interface_) input.boundary.wall_pressures.emplace_back(face, pressure);
+  return input;
+}
+
+std::vector<double> PrestressRun::forces_beside_pressure() const {
+  std::vector<double> forces = local_forces_;
+  for (const auto& name : wall_interface_)
+    for (const auto& t : wall_.face(name).triangles) {
+      const auto& x = wall_.points;
+      const Vec3<double> corners[3] = {x[t[0]], x[t[1]], x[t[2]]};
+      wall::SurfaceVector<double> r{};
+      wall::add_pressure(
+          corners, (local_forces_[at(t[0]) + 3] + local_forces_[at(t[1]) + 3] + local_forces_[at(t[2]) + 3]) / 3.0, r);
+      for (int a = 0; a < 3; ++a)
+        for (std::size_t c = 0; c < 3; ++c) forces[at(t[static_cast<std::size_t>(a)]) + c] += r.r[a][c];
+    }
+  wall_.halo.update(forces, 4);
+  return forces;
+}
+
 // Force over area at a node, for the eye.
 void PrestressRun::write_traction(const coupling::Problem& problem) {
-  std::vector<double> forces(at(wall_.nodes()), 0.0);
-  parallel::scatter_by_original_id(node_order(wall_), forces_, forces, 4);
-  wall_.halo.update(forces, 4);
   std::vector<double> area(static_cast<std::size_t>(wall_.nodes()), 0.0);
   for (const auto& face : wall_.faces) {
     if (std::find(wall_interface_.begin(), wall_interface_.end(), face.name) == wall_interface_.end()) continue;
@@ -282,9 +316,9 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
     }
   }
   wall_.halo.update(area, 1);
-  std::vector<double> traction(forces.size(), 0.0);
+  std::vector<double> traction(local_forces_.size(), 0.0);
   for (std::size_t k = 0; k < traction.size(); ++k)
-    if (area[k / 4] > 0) traction[k] = forces[k] / area[k / 4];
+    if (area[k / 4] > 0) traction[k] = local_forces_[k] / area[k / 4];
   const std::string unit = case_.output.units.stress;
   const mesh::NodalArray array{.name = fmt::format("traction [{}]", unit),
                                .components = 3,
@@ -392,12 +426,10 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
 
 void PrestressRun::find_wall() {
   wall_ = mesh::distribute(wall_part_.data, comm_);
-  coupling::Problem problem(wall_, problem_input(wall_case(case_, wall_faces_)));
+  coupling::Problem problem(wall_, wall_input());
   for (const auto& line : problem.wall_model().notes()) log_->info(line);
   if (case_.solves_fluid()) {
-    std::vector<double> forces(at(wall_.nodes()), 0.0);
-    parallel::scatter_by_original_id(node_order(wall_), forces_, forces, 4);
-    problem.set_nodal_forces(forces);
+    problem.set_nodal_forces(forces_beside_pressure());
     write_traction(problem);
   }
   parallel::on_root(comm_, [&] {
