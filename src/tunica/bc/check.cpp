@@ -133,7 +133,7 @@ class Checker {
         if (fixed->along_normal()) return;
         for (int i = 0; i < 3; ++i) held[i] = held[i] || fixed->axes()[i];
       }
-      if (const auto* support = std::get_if<Support>(&condition); support && support->stiffness > 0) return;
+      if (const auto* support = std::get_if<Support>(&condition); support && support->holds()) return;
     }
     for (const auto& face : boundary_.faces) any_wall = any_wall || face.field == Field::wall;
     if (!any_wall || (held[0] && held[1] && held[2])) return;

@@ -37,4 +37,11 @@ Waveform inflow(const Flow& flow) {
   return make_waveform(flow.course).scaled(outflow ? -1.0 : 1.0);
 }
 
+std::vector<std::string> Support::arrays() const {
+  std::vector<std::string> names;
+  for (const auto* value : {&stiffness, &damping, &pressure})
+    if (const auto* array = std::get_if<FaceArray>(value)) names.push_back(array->name);
+  return names;
+}
+
 }  // namespace tunica::bc

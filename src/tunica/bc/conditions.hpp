@@ -85,14 +85,26 @@ struct Free {
   static config::Schema<Free> schema();
 };
 
+/// A point array of a face in the mesh file.
+struct FaceArray {
+  std::string name;
+  double unit = 1.0;  ///< SI value of 1
+};
+/// The same on the whole face [SI], or an array.
+using SupportValue = std::variant<double, FaceArray>;
+
 /// Elastic tissue around the wall: traction -k_s u - c_s du/dt - p0 n, the first two of the full vectors or of their
 /// normal parts, on the reference face.
 struct Support {
   enum class Direction { full, normal };
-  double stiffness = 0.0;  ///< k_s, N/m^3
-  double damping = 0.0;    ///< c_s, N s/m^3
-  double pressure = 0.0;   ///< p0, Pa
+  SupportValue stiffness = 0.0;  ///< k_s, N/m^3
+  SupportValue damping = 0.0;    ///< c_s, N s/m^3
+  SupportValue pressure = 0.0;   ///< p0, Pa
   Direction direction = Direction::full;
+  /// Has it a stiffness, anywhere?
+  bool holds() const { return stiffness.index() != 0 || std::get<double>(stiffness) > 0; }
+  /// Names of the point arrays that it wants.
+  std::vector<std::string> arrays() const;
   static config::Schema<Support> schema();
 };
 

@@ -111,6 +111,19 @@ Schema<WaveformInput> waveform_schema(const config::Dimension& due) {
       .by_default();
 }
 
+Schema<SupportValue> support_value_schema(const config::Dimension& due, const config::Range& allowed, const char* low,
+                                          const char* high) {
+  Schema<FaceArray> array("array", "Values at the nodes of the face.");
+  array.text("name", &FaceArray::name, "Point array in the mesh file of the face")
+      .unit("unit", &FaceArray::unit, due, "Its unit");
+  return Schema<SupportValue>("support_value", "One value for the face, or an array of its mesh file.")
+      .one_of()
+      .quantity("value", config::emplace<double>, due, allowed, "The same on the whole face")
+      .plausible(low, high)
+      .alternative(array)
+      .shorthand("value");
+}
+
 }  // namespace
 
 Schema<NoSlip> NoSlip::schema() { return Schema<NoSlip>("no_slip", "Blood at rest at a rigid wall."); }
@@ -201,13 +214,15 @@ Schema<Free> Free::schema() { return Schema<Free>("free", "No traction on the fa
 
 Schema<Support> Support::schema() {
   return Schema<Support>("support", "Elastic surrounding tissue: traction -k_s u - c_s du/dt - p_0 n.")
-      .quantity("stiffness", &Support::stiffness, dimension::stiffness_per_area, at_least(0), "k_s")
-      .plausible("1e3 N/m^3", "1e12 N/m^3")
-      .quantity("damping", &Support::damping, dimension::damping_per_area, at_least(0), "c_s")
-      .by_default()
-      .quantity("pressure", &Support::pressure, dimension::pressure, anything(), "p_0 of the surroundings")
-      .by_default()
-      .plausible("-100 mmHg", "100 mmHg")
+      .section("stiffness", &Support::stiffness,
+               support_value_schema(dimension::stiffness_per_area, at_least(0), "1e3 N/m^3", "1e12 N/m^3"), "k_s")
+      .section("damping", &Support::damping,
+               support_value_schema(dimension::damping_per_area, at_least(0), "0 N s/m^3", "1e12 N s/m^3"), "c_s")
+      .by_default("0 N s/m^3")
+      .section("pressure", &Support::pressure,
+               support_value_schema(dimension::pressure, anything(), "-100 mmHg", "100 mmHg"),
+               "p_0 of the surroundings")
+      .by_default("0 Pa")
       .choice("direction", &Support::direction, {{"full", Direction::full}, {"normal", Direction::normal}},
               "Act on the whole displacement or on its normal part only")
       .by_default();

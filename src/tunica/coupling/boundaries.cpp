@@ -11,7 +11,6 @@
 #include "tunica/coupling/whole_face.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
-#include "tunica/wall/surface.hpp"
 
 namespace tunica::coupling {
 
@@ -193,8 +192,30 @@ struct Boundaries::Builder {
   void operator()(std::size_t, const bc::Free&) {}
   void operator()(std::size_t index, const bc::Support& c) {
     Load load{.face = index, .kind = Load::Kind::support};
-    load.support = c;
+    load.support = parallel::agree(mesh.comm, [&] { return support_of(mesh.faces[index], c); });
     b.loads_.push_back(load);
+  }
+
+  double support_value(const bc::SupportValue& value, const mesh::Face& face,
+                       const std::array<std::int32_t, 3>& triangle, double lowest) const {
+    if (const auto* constant = std::get_if<double>(&value)) return *constant;
+    const auto& array = std::get<bc::FaceArray>(value);
+    const auto& nodal = mesh.node_field(mesh::face_array_name(face.name, array.name)).values;
+    for (const auto n : triangle)
+      if (!(nodal[n] * array.unit >= lowest))
+        throw InputError("boundary." + face.name,
+                         "point array " + array.name + " is " + std::to_string(nodal[n]) + " in a node, allowed is " +
+                             std::to_string(lowest) + " or more",
+                         "mend the array in the mesh file");
+    return array.unit * (nodal[triangle[0]] + nodal[triangle[1]] + nodal[triangle[2]]) / 3.0;
+  }
+  std::vector<wall::TissueSupport<double>> support_of(const mesh::Face& face, const bc::Support& c) const {
+    std::vector<wall::TissueSupport<double>> list;
+    for (const auto& t : face.triangles)
+      list.push_back({support_value(c.stiffness, face, t, 0.0), support_value(c.damping, face, t, 0.0),
+                      support_value(c.pressure, face, t, std::numeric_limits<double>::lowest()),
+                      c.direction == bc::Support::Direction::normal});
+    return list;
   }
 
   bool is_wall(std::size_t index) const {
@@ -221,6 +242,12 @@ Boundaries::Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockP
   for (const auto& [name, field] : input.traction_fields) {
     mesh.face(name);
     traction_fields_.push_back({index_of[name], field});
+  }
+  for (const auto& [name, nodal] : input.wall_pressures) {
+    Load load{.face = index_of.at(mesh.face(name).name), .kind = Load::Kind::follower_pressure};
+    for (const auto& t : mesh.face(name).triangles)
+      load.pressures.push_back((nodal[t[0]] + nodal[t[1]] + nodal[t[2]]) / 3.0);
+    loads_.push_back(load);
   }
   // no_slip wins on shared nodes.
   std::vector<char> still(mesh.nodes(), 0);
@@ -314,7 +341,8 @@ void Boundaries::add_traction_field(const TractionField& load, double t, double 
 void Boundaries::add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
                                const LoadCoefficients& coefficients, std::span<double> residual,
                                assembly::BlockMatrix* matrix) const {
-  for (const auto& own : mesh_.faces[load.face].triangles) {
+  for (std::size_t t = 0; t < mesh_.faces[load.face].triangles.size(); ++t) {
+    const auto& own = mesh_.faces[load.face].triangles[t];
     const std::array<std::int32_t, 3> triangle{mesh_.host[own[0]], mesh_.host[own[1]], mesh_.host[own[2]]};
     wall::SupportState<double> s;
     gather(fields.reference_position, triangle, s.X);
@@ -332,14 +360,15 @@ void Boundaries::add_wall_load(const Load& load, double value, double factor, co
       case Load::Kind::dead_pressure:
         wall::add_pressure(s.X, value, r);
         break;
-      case Load::Kind::follower_pressure:
-        wall::add_pressure(x, value, r);
-        if (matrix != nullptr) wall::add_pressure_tangent(x, value, du, k);
+      case Load::Kind::follower_pressure: {
+        const double pressure = load.pressures.empty() ? value : factor * load.pressures[t];
+        wall::add_pressure(x, pressure, r);
+        if (matrix != nullptr) wall::add_pressure_tangent(x, pressure, du, k);
         break;
+      }
       default: {
-        const wall::TissueSupport<double> support{load.support.stiffness, load.support.damping,
-                                                  factor * load.support.pressure,
-                                                  load.support.direction == bc::Support::Direction::normal};
+        wall::TissueSupport<double> support = load.support[t];
+        support.pressure *= factor;
         wall::add_support(s, support, r);
         if (matrix != nullptr) wall::add_support_tangent(s, support, du, coefficients.velocity, k);
       }

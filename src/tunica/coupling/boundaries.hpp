@@ -13,6 +13,7 @@
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/wall/surface.hpp"
 
 namespace tunica::coupling {
 
@@ -37,6 +38,9 @@ struct BoundaryInput {
   std::vector<std::pair<std::string, VectorField>> velocity_fields;  ///< face, velocity at t_{n+1} [m/s]
   /// Face, traction [Pa] on the current face at t_{n+alpha_f}, interpolated linearly between the nodes.
   std::vector<std::pair<std::string, VectorField>> traction_fields;
+  /// Wall face, pressure [Pa] at its nodes [local node]: follows the deformed face, each triangle takes the mean of its
+  /// nodes. Statics multiplies it by its load factor.
+  std::vector<std::pair<std::string, std::vector<double>>> wall_pressures;
   /// Lumen flow with prescribed velocity all around: p = 0 at the lumen node nearest to this point [m].
   std::optional<Vec3<double>> pressure_level;
 };
@@ -80,7 +84,8 @@ class Boundaries {
     enum class Kind { lumen_pressure, lumen_traction, follower_pressure, dead_pressure, dead_traction, support } kind;
     bc::Waveform course = bc::Waveform::constant(1.0);
     Vec3<double> vector{};
-    bc::Support support{};
+    std::vector<wall::TissueSupport<double>> support{};  ///< of each triangle: means of its nodes
+    std::vector<double> pressures{};                     ///< follower pressure of each triangle; empty: `course`
   };
   struct FieldNode {
     std::int32_t node;

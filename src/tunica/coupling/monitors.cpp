@@ -135,6 +135,8 @@ void Monitors::wall_elements(StepRecord& record) const {
       sums[1] += wall::kinetic_energy(s.reference.volume, velocity, body.density);
       sums[2] +=
           model.mixed() ? wall::mixed_strain_energy(s, law, body) : wall::displacement_strain_energy(s, law, body);
+      if (model.prestress().kind == wall::PrestressKind::stress)
+        sums[2] += wall::prestress_energy(s, model.prestress(i, e));
     }
   }
   parallel::global_sum(mesh.comm, sums);

@@ -73,6 +73,9 @@ class Problem {
   /// evaluation from now on: body forces, varying tractions. Statics multiplies them by its load factor.
   void set_nodal_forces(std::span<const double> forces);
 
+  /// Prestress of the wall in every evaluation from now on. Throws as WallModel::set_prestress.
+  void set_prestress(WallPrestress prestress) { wall_.value().set_prestress(std::move(prestress), wall_groups_); }
+
   /// Residual of the lumen elements alone and of the wall elements alone for the step that `advance` last accepted:
   /// their sum vanishes at the interface. [local node][4], at t_{n+alpha_f}. Collective.
   struct PartialResiduals {

@@ -24,7 +24,10 @@ wall::ElementState<double> wall_element(const mesh::DistributedMesh& mesh, const
 wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element,
                                       const wall::ElementState<double>& state) {
   const auto [law, body] = model.material(region, element);
-  return model.mixed() ? wall::mixed_cauchy_stress(state, law) : wall::displacement_cauchy_stress(state, law, body);
+  const auto sigma =
+      model.mixed() ? wall::mixed_cauchy_stress(state, law) : wall::displacement_cauchy_stress(state, law, body);
+  if (model.prestress().kind != wall::PrestressKind::stress) return sigma;
+  return sigma + wall::prestress_cauchy_stress(state, model.prestress(region, element));
 }
 
 }  // namespace tunica::coupling

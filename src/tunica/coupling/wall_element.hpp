@@ -10,7 +10,7 @@ namespace tunica::coupling {
 wall::ElementState<double> wall_element(const mesh::DistributedMesh& mesh, const WallModel& model, const State& state,
                                         std::size_t region, std::int32_t element);
 
-/// Its Cauchy stress in global axes [Pa], Voigt 11 22 33 12 23 13.
+/// Its Cauchy stress with the prestress in global axes [Pa], Voigt 11 22 33 12 23 13.
 wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element,
                                       const wall::ElementState<double>& state);
 

@@ -2,15 +2,16 @@
 #pragma once
 
 #include "tunica/coupling/gather.inl.hpp"
+#include "tunica/wall/prestress.hpp"
 
 namespace tunica::coupling {
 
 namespace {
 
-/// Reference of a batch, in its fibre frames [e1, e2][component][lane] if there are any.
+/// Imaged shape of a batch, in its fibre frames [e1, e2][component][lane] if there are any.
 template <int W>
-TUNICA_INLINE void set_reference_of(const WallGroupView& group, std::int32_t batch, const Vec3<Pack<W>> (&X)[4],
-                                    wall::ElementState<Pack<W>>& state) {
+TUNICA_INLINE void set_shape_of(const WallGroupView& group, std::int32_t batch, const Vec3<Pack<W>> (&X)[4],
+                                wall::ElementState<Pack<W>>& state) {
   if (group.frames == nullptr) return wall::set_reference(state, X);
   const double* frame = group.frames + static_cast<std::ptrdiff_t>(batch) * 6 * W;
   Vec3<Pack<W>> e1, e2;
@@ -19,6 +20,26 @@ TUNICA_INLINE void set_reference_of(const WallGroupView& group, std::int32_t bat
     e2[i] = Pack<W>::load(frame + (3 + i) * W);
   }
   wall::set_reference(state, X, e1, e2);
+}
+
+/// Reference of a batch: its imaged shape, or what the prestretch makes of it.
+template <int W>
+TUNICA_INLINE void set_reference_of(const WallGroupView& group, std::int32_t batch, const Vec3<Pack<W>> (&X)[4],
+                                    wall::ElementState<Pack<W>>& state) {
+  set_shape_of<W>(group, batch, X, state);
+  if (group.prestretch == nullptr) return;
+  const double* values = group.prestretch + static_cast<std::ptrdiff_t>(batch) * 9 * W;
+  Mat3<Pack<W>> F0;
+  for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = Pack<W>::load(values + k * W);
+  wall::set_prestretch(state, F0);
+}
+
+template <int W>
+TUNICA_INLINE wall::Symmetric<Pack<W>> prestress_of(const WallGroupView& group, std::int32_t batch) {
+  const double* values = group.prestress + static_cast<std::ptrdiff_t>(batch) * wall::voigt_size * W;
+  wall::Symmetric<Pack<W>> S0;
+  for (int k = 0; k < wall::voigt_size; ++k) S0[k] = Pack<W>::load(values + k * W);
+  return S0;
 }
 
 /// The blend of one batch as the kernels want it.
@@ -70,6 +91,11 @@ void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const 
         wall::mixed_tangent(state, law, body, coefficients, r, k);
       else
         wall::displacement_tangent(state, law, body, coefficients, r, k);
+      if (group.prestress != nullptr) {
+        const auto S0 = prestress_of<W>(group, batch);
+        wall::add_prestress_residual(state, S0, r);
+        wall::add_prestress_tangent(state, S0, coefficients, k);
+      }
       if (batches.split)
         assembly::scatter_tangent_split<W>(k, slots, used, target.blocks);
       else
@@ -79,6 +105,7 @@ void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const 
         wall::mixed_residual(state, law, body, coefficients, r);
       else
         wall::displacement_residual(state, law, body, r);
+      if (group.prestress != nullptr) wall::add_prestress_residual(state, prestress_of<W>(group, batch), r);
     }
     if (batches.split)
       assembly::scatter_residual_split<W>(r, nodes, batches.hosts + static_cast<std::ptrdiff_t>(batch) * 4 * W, used,

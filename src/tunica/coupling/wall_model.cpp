@@ -1,6 +1,7 @@
 #include "tunica/coupling/wall_model.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/fibre_frames.hpp"
@@ -30,6 +31,25 @@ std::vector<int> material_of_regions(const mesh::DistributedMesh& mesh, const wa
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError("wall.regions." + name, "the mesh has no wall region of this name", "use one of: " + names);
   return material;
+}
+
+/// The prestress that came with the elements of the mesh.
+WallPrestress prestress_of_mesh(const mesh::DistributedMesh& mesh, wall::PrestressKind kind) {
+  WallPrestress prestress{.kind = kind};
+  for (const auto& region : mesh.regions) {
+    auto& values = prestress.values.emplace_back();
+    if (region.kind == mesh::RegionKind::wall) values = region.field(wall::prestress_array).values;
+  }
+  return prestress;
+}
+
+/// Its kind, by the number of components; none where the mesh has no such array.
+wall::PrestressKind kind_in_mesh(const mesh::DistributedMesh& mesh) {
+  for (const auto& region : mesh.regions)
+    for (const auto& field : region.fields)
+      if (field.name == wall::prestress_array)
+        return field.components == wall::voigt_size ? wall::PrestressKind::stress : wall::PrestressKind::stretch;
+  return wall::PrestressKind::none;
 }
 
 }  // namespace
@@ -80,6 +100,8 @@ WallModel::WallModel(const mesh::DistributedMesh& mesh, const wall::Parameters& 
           blended(shear_moduli_, blends_[blend->second], weights_.data() + region.weights[e]));
     }
   }
+  if (const auto kind = kind_in_mesh(mesh); kind != wall::PrestressKind::none)
+    prestress_ = prestress_of_mesh(mesh, kind);
 }
 
 double WallModel::shear_modulus_at_rest() const {
@@ -124,7 +146,63 @@ wall::ElementState<double> WallModel::at_rest(std::size_t region, std::int32_t e
     wall::set_reference(state, X, Vec3<double>{{frame[0], frame[1], frame[2]}},
                         Vec3<double>{{frame[3], frame[4], frame[5]}});
   }
+  if (prestress_.kind == wall::PrestressKind::stretch) wall::set_prestretch(state, prestretch(region, element));
   return state;
+}
+
+Mat3<double> WallModel::axes(std::size_t region, std::int32_t element) const {
+  if (regions_[region].frames.empty()) return identity<double>();
+  const double* f = regions_[region].frames.data() + 6 * static_cast<std::size_t>(element);
+  const Vec3<double> e1{{f[0], f[1], f[2]}}, e2{{f[3], f[4], f[5]}}, e3 = cross(e1, e2);
+  return {{{e1[0], e2[0], e3[0]}, {e1[1], e2[1], e3[1]}, {e1[2], e2[2], e3[2]}}};
+}
+
+wall::Symmetric<double> WallModel::prestress(std::size_t region, std::int32_t element) const {
+  wall::Symmetric<double> S0{};
+  if (prestress_.kind != wall::PrestressKind::stress) return S0;
+  const double* v = prestress_.values[region].data() + wall::voigt_size * static_cast<std::size_t>(element);
+  for (int k = 0; k < wall::voigt_size; ++k) S0[k] = v[k];
+  return wall::in_axes(axes(region, element), S0);
+}
+
+Mat3<double> WallModel::prestretch(std::size_t region, std::int32_t element) const {
+  const double* v = prestress_.values[region].data() + 9 * static_cast<std::size_t>(element);
+  Mat3<double> F0;
+  for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = v[k];
+  const Mat3<double> Q = axes(region, element);
+  return transpose(Q) * F0 * Q;
+}
+
+void WallModel::fill_prestress(Group& group) const {
+  group.prestress.clear(), group.prestretch.clear();
+  if (prestress_.kind == wall::PrestressKind::none) return;
+  const bool stress = prestress_.kind == wall::PrestressKind::stress;
+  const auto n = static_cast<std::size_t>(wall::components(prestress_.kind));
+  const auto width = static_cast<std::size_t>(group.batches.width),
+             batches = static_cast<std::size_t>(group.batches.batches());
+  std::vector<double>& to = stress ? group.prestress : group.prestretch;
+  to.resize(batches * n * width);
+  const auto& members = group.batches.elements_of_region;
+  for (std::size_t lane = 0; lane < batches * width; ++lane) {
+    const auto element = members[std::min(lane, members.size() - 1)];
+    double* values = to.data() + lane / width * n * width + lane % width;
+    if (stress) {
+      const auto S0 = prestress(group.region, element);
+      for (std::size_t c = 0; c < n; ++c) values[c * width] = S0[static_cast<int>(c)];
+    } else {
+      const auto F0 = prestretch(group.region, element);
+      for (std::size_t c = 0; c < n; ++c) values[c * width] = F0(static_cast<int>(c) / 3, static_cast<int>(c) % 3);
+    }
+  }
+}
+
+void WallModel::set_prestress(WallPrestress prestress, std::vector<Group>& groups) {
+  const auto n = static_cast<std::size_t>(wall::components(prestress.kind));
+  for (std::size_t r = 0; r < regions_.size() && n > 0; ++r)
+    if (prestress.values.size() != regions_.size() || prestress.values[r].size() != n * regions_[r].blend.size())
+      throw std::invalid_argument("set_prestress: as many values as the wall elements need");
+  prestress_ = std::move(prestress);
+  for (Group& group : groups) fill_prestress(group);
 }
 
 WallGroupView WallModel::Group::view() const {
@@ -133,7 +211,9 @@ WallGroupView WallModel::Group::view() const {
           .laws = laws,
           .weights = weights.empty() ? nullptr : weights.data(),
           .bodies = bodies.data(),
-          .frames = frames.empty() ? nullptr : frames.data()};
+          .frames = frames.empty() ? nullptr : frames.data(),
+          .prestress = prestress.empty() ? nullptr : prestress.data(),
+          .prestretch = prestretch.empty() ? nullptr : prestretch.data()};
 }
 
 WallElementSettings WallModel::element_settings() const { return {mixed_, volumetric_energy_, stabilisation_}; }
@@ -171,6 +251,7 @@ std::vector<WallModel::Group> WallModel::groups(const mesh::DistributedMesh& mes
           for (std::size_t c = 0; c < 6; ++c)
             add(group.frames, [&](std::int32_t e) { return model.frames[6 * static_cast<std::size_t>(e) + c]; });
       }
+      fill_prestress(group);
       result.push_back(std::move(group));
     }
   }

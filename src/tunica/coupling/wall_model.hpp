@@ -8,13 +8,21 @@
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/wall/blended_law.hpp"
 #include "tunica/wall/parameters.hpp"
+#include "tunica/wall/prestress.hpp"
 
 namespace tunica::coupling {
 
+/// Prestress of all local wall elements, ghosts included.
+struct WallPrestress {
+  wall::PrestressKind kind = wall::PrestressKind::none;
+  std::vector<std::vector<double>> values{};  ///< [region of the mesh][element][component], global axes
+};
+
 class WallModel {
  public:
-  /// Throws InputError when a region of the parameters is not in the mesh, a frame cannot be found, or the rule of
-  /// fibre directions cannot keep its tolerance. Collective.
+  /// Prestress is taken from the mesh where it has the array (wall::prestress_array). Throws InputError when a region
+  /// of the parameters is not in the mesh, a frame cannot be found, or the rule of fibre directions cannot keep its
+  /// tolerance. Collective.
   WallModel(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters);
 
   bool mixed() const { return mixed_; }
@@ -33,11 +41,15 @@ class WallModel {
   ElementMaterial material(std::size_t region, std::int32_t element) const;
 
   /// The element with the corners X [m] at rest: gradients in its fibre frame, or in global axes where no law needs
-  /// one.
+  /// one; referred to its stress-free state where it is prestretched.
   wall::ElementState<double> at_rest(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const;
 
   /// e1 and e2 of the fibre frame of each element of a region, [element][6]; empty where no law needs one.
   const std::vector<double>& frames(std::size_t region) const { return regions_[region].frames; }
+
+  const WallPrestress& prestress() const { return prestress_; }
+  /// S0 of an element in the axes of its gradients [Pa]; zero without.
+  wall::Symmetric<double> prestress(std::size_t region, std::int32_t element) const;
 
   /// Weight of a material in an element: 0 is that of all regions without one of their own, then the others by name.
   double weight(std::size_t region, std::int32_t element, std::size_t material) const;
@@ -52,12 +64,18 @@ class WallModel {
     std::vector<double> weights;  ///< [batch][law][lane], empty for one law
     std::vector<double> bodies;   ///< [batch][density, K, mu at rest, mu present][lane]
     std::vector<double> frames;   ///< [batch][6][lane], empty without frames
+    /// Of the kind that the model has [batch][component][lane], axes of the frames; empty without.
+    std::vector<double> prestress, prestretch;
 
     WallGroupView view() const;
   };
   std::vector<Group> groups(const mesh::DistributedMesh& mesh, std::size_t region,
                             const assembly::BlockPattern& pattern, int width) const;
   WallElementSettings element_settings() const;
+
+  /// Prestress from now on, also in the groups, which must be this model's. Throws std::invalid_argument for a wrong
+  /// number of values.
+  void set_prestress(WallPrestress prestress, std::vector<Group>& groups);
 
   /// Takes the present modulus (1.16) of all elements from the displacement in `fields`, for the groups, which must be
   /// this model's, and for material(). Only the stabilisation of the mixed element depends on it.
@@ -74,6 +92,10 @@ class WallModel {
     std::vector<double> frames;
     std::vector<double> present_modulus;  ///< [element] [Pa]
   };
+  /// Axes of the gradients of an element, before any prestretch.
+  Mat3<double> axes(std::size_t region, std::int32_t element) const;
+  Mat3<double> prestretch(std::size_t region, std::int32_t element) const;
+  void fill_prestress(Group& group) const;
   double blended(const std::vector<double>& of_material, const Blend& blend, const double* weights) const;
 
   bool mixed_;
@@ -85,6 +107,7 @@ class WallModel {
   std::vector<Blend> blends_;
   std::vector<double> weights_;
   std::vector<RegionModel> regions_;  ///< [region of the mesh], empty for the lumen
+  WallPrestress prestress_;
 };
 
 }  // namespace tunica::coupling

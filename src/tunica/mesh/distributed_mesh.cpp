@@ -165,6 +165,11 @@ class Cutter {
       mesh.global_ids[i] = numbering_.new_id[nodes[i]];
       mesh.host[i] = local_[groups_.host[nodes[i]]];
     }
+    for (std::size_t f = 0; f < data_.node_fields.size(); ++f) {
+      auto& values = mesh.node_fields[f].values;
+      values.clear();
+      for (const auto node : nodes) values.push_back(data_.node_fields[f].values[node]);
+    }
     cut_elements(rank, mesh);
     cut_faces(rank, mesh);
     for (const std::int64_t node : nodes) local_[node] = absent;
@@ -249,7 +254,7 @@ DistributedMesh broadcast_frame(const MeshData& data, MPI_Comm comm) {
   std::vector<RegionKind> kinds;
   std::vector<std::int32_t> face_regions;
   std::vector<std::int64_t> face_sizes;
-  std::vector<std::string> field_names;
+  std::vector<std::string> field_names, node_field_names;
   std::vector<std::int32_t> field_components;
   std::array<std::int64_t, 2> totals{};
   if (parallel::rank(comm) == 0) {
@@ -266,6 +271,7 @@ DistributedMesh broadcast_frame(const MeshData& data, MPI_Comm comm) {
       field_names.push_back(field.name);
       field_components.push_back(field.components);
     }
+    for (const auto& field : data.node_fields) node_field_names.push_back(field.name);
     totals = {static_cast<std::int64_t>(data.points.size()), static_cast<std::int64_t>(data.tetrahedra.size())};
   }
   parallel::broadcast(comm, region_names);
@@ -275,12 +281,14 @@ DistributedMesh broadcast_frame(const MeshData& data, MPI_Comm comm) {
   parallel::broadcast(comm, face_sizes);
   parallel::broadcast(comm, field_names);
   parallel::broadcast(comm, field_components);
+  parallel::broadcast(comm, node_field_names);
   parallel::broadcast(comm, totals);
 
   DistributedMesh mesh;
   mesh.comm = comm;
   mesh.global_nodes = totals[0];
   mesh.global_elements = totals[1];
+  for (const auto& name : node_field_names) mesh.node_fields.push_back({name, {}});
   std::vector<ElementField> fields;
   for (std::size_t f = 0; f < field_names.size(); ++f) fields.push_back({field_names[f], field_components[f], {}});
   for (std::size_t r = 0; r < region_names.size(); ++r)
@@ -296,6 +304,7 @@ void send_part(MPI_Comm comm, int to, const DistributedMesh& mesh) {
   parallel::send(comm, to, mesh.global_ids);
   parallel::send(comm, to, mesh.original_ids);
   parallel::send(comm, to, mesh.host);
+  for (const auto& field : mesh.node_fields) parallel::send(comm, to, field.values);
   for (const auto& region : mesh.regions) {
     parallel::send(comm, to, region.elements);
     parallel::send(comm, to, region.element_ids);
@@ -312,6 +321,7 @@ void receive_part(MPI_Comm comm, DistributedMesh& mesh) {
   mesh.global_ids = parallel::receive<std::int64_t>(comm, 0);
   mesh.original_ids = parallel::receive<std::int64_t>(comm, 0);
   mesh.host = parallel::receive<std::int32_t>(comm, 0);
+  for (auto& field : mesh.node_fields) field.values = parallel::receive<double>(comm, 0);
   for (auto& region : mesh.regions) {
     region.elements = parallel::receive<std::array<std::int32_t, 4>>(comm, 0);
     region.element_ids = parallel::receive<std::int64_t>(comm, 0);
@@ -397,6 +407,16 @@ const Face& DistributedMesh::face(const std::string& name) const {
     names += (names.empty() ? "" : ", ") + face.name;
   }
   throw InputError("mesh", fmt::format("there is no face '{}'", name), "use one of: " + names);
+}
+
+const NodeField& DistributedMesh::node_field(const std::string& name) const {
+  std::string names;
+  for (const auto& field : node_fields) {
+    if (field.name == name) return field;
+    names += (names.empty() ? "" : ", ") + field.name;
+  }
+  throw InputError("mesh", fmt::format("it brings no node values called '{}'", name),
+                   names.empty() ? "give a mesh file with point arrays on its faces" : "use one of: " + names);
 }
 
 DistributedMesh distribute(const MeshData& data, MPI_Comm comm) {

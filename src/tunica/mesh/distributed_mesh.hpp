@@ -47,12 +47,14 @@ struct DistributedMesh {
   std::vector<std::int64_t> global_ids;    ///< of all local nodes
   std::vector<std::int64_t> original_ids;  ///< position in MeshData::points, the order that checkpoints keep
   std::vector<std::int32_t> host;          ///< local node that carries the motion: itself, or the lumen twin
+  std::vector<NodeField> node_fields;      ///< of all local nodes
   std::vector<Region> regions;
   std::vector<Face> faces;
   parallel::Halo halo;
 
   std::int32_t nodes() const { return static_cast<std::int32_t>(points.size()); }
-  const Face& face(const std::string& name) const;  ///< throws InputError listing the names that exist
+  const Face& face(const std::string& name) const;             ///< throws InputError listing the names that exist
+  const NodeField& node_field(const std::string& name) const;  ///< the same
 };
 
 /// Distributes `data` (significant on rank 0 only) over `comm`: partition of the nodes by METIS (twins stay together),

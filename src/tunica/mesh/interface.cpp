@@ -36,6 +36,15 @@ void append_fields(std::vector<ElementField>& all, const std::vector<ElementFiel
   }
 }
 
+/// The same for the values of nodes; every field is of one part alone, since it belongs to a face.
+void append_node_fields(std::vector<NodeField>& all, const std::vector<NodeField>& added, Index present, Index count) {
+  for (const auto& field : added) all.push_back({field.name, std::vector<double>(present, std::nan(""))});
+  for (auto& field : all) field.values.resize(present + count, std::nan(""));
+  for (std::size_t k = 0; k < added.size(); ++k)
+    std::copy(added[k].values.begin(), added[k].values.end(),
+              all[all.size() - added.size() + k].values.begin() + present);
+}
+
 LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
   LoadedMesh all;
   for (const auto& part : parts) {
@@ -50,6 +59,7 @@ LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
       all.data.regions.push_back(std::move(r));
     }
     append_fields(all.data.fields, part.data.fields, element, std::ssize(part.data.tetrahedra));
+    append_node_fields(all.data.node_fields, part.data.node_fields, node, std::ssize(part.data.points));
     for (auto f : part.data.faces) {
       f.region += region;
       for (auto& t : f.triangles) t = {t[0] + node, t[1] + node, t[2] + node};

@@ -29,6 +29,15 @@ struct ElementField {
   std::vector<double> values;  ///< [element][component]
 };
 
+/// One value for each node, such as the stiffness of what surrounds a face; NaN where there is none.
+struct NodeField {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Name of the node field that holds a point array of a face: nodes on the rim of two faces have two values.
+inline std::string face_array_name(const std::string& face, const std::string& array) { return face + "." + array; }
+
 struct FaceData {
   std::string name;
   std::int32_t region;                                 ///< index of a region it bounds; other regions are of its kind
@@ -42,6 +51,7 @@ struct MeshData {
   std::vector<RegionData> regions;                      ///< at most one lumen, any number of wall regions
   std::vector<FaceData> faces;
   std::vector<ElementField> fields;                          ///< of all tetrahedra
+  std::vector<NodeField> node_fields;                        ///< of all points
   std::vector<std::pair<std::int64_t, std::int64_t>> twins;  ///< (wall node, lumen node hosting its motion)
 };
 

@@ -101,6 +101,23 @@ void refuse_not_finite(const ElementField& field, const std::string& where) {
                        "write the array again");
 }
 
+/// Point arrays of a face at the nodes of the volume.
+std::vector<NodeField> fields_of_face(const std::string& face, const VtkCells& file, const std::vector<Index>& nodes,
+                                      Index volume_nodes, const std::string& where) {
+  std::vector<NodeField> fields;
+  for (const auto& array : file.node_fields) {
+    NodeField field{face_array_name(face, array.name), std::vector<double>(volume_nodes, std::nan(""))};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!std::isfinite(array.values[i]))
+        throw InputError(where, fmt::format("point array {} is not finite in point {}", array.name, i + 1),
+                         "write the array again");
+      field.values[nodes[i]] = array.values[i];
+    }
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
 /// Sorts the elements by region, in the order of their numbers, and everything else of `file` that goes with them.
 void sort_by_region(MeshData& data, VtkCells& file, const NamedRegions& regions, RegionKind kind,
                     const std::string& where) {
@@ -238,9 +255,12 @@ std::string compare_element_ids(const Volume& volume, const VtkCells& file, cons
   return fmt::format("GlobalElementID right for {} of {}", right, n);
 }
 
+/// Adds the point arrays of the face to `fields`.
 FaceData read_face(const fs::path& path, const Volume& volume, const SimVascularOptions& options,
-                   std::vector<std::string>& report) {
-  const auto file = read_vtk_surface(path);
+                   std::vector<NodeField>& fields, std::vector<std::string>& report) {
+  const auto wanted = options.face_arrays.find(path.stem().string());
+  const auto file =
+      read_vtk_surface(path, wanted == options.face_arrays.end() ? std::vector<std::string>{} : wanted->second);
   const auto where = path.string();
   const auto points = scaled_points(file, options.metres_per_unit, where);
   FaceData face{path.stem().string(), 0, {}};
@@ -260,6 +280,8 @@ FaceData read_face(const fs::path& path, const Volume& volume, const SimVascular
                                  "the local edge length): {}",
                                  missing.size(), options.tolerance, list_places(missing)),
                      "export faces and volume from the same mesh in the same unit");
+  for (auto& field : fields_of_face(face.name, file, found.nodes, std::ssize(volume.data.points), where))
+    fields.push_back(std::move(field));
   report.push_back(fmt::format("face {}: {} triangles; {}; {}", face.name, face.triangles.size(), found.how,
                                compare_element_ids(volume, file, face)));
   return face;
@@ -303,13 +325,15 @@ LoadedMesh read_simvascular(const fs::path& folder, RegionKind kind, const std::
   const auto volume = make_volume(data, boundary, file);
   std::vector<Problem> problems;
   std::vector<FaceData> faces;
+  std::vector<NodeField> node_fields;
   for (const auto& path : surfaces) try {
-      faces.push_back(read_face(path, volume, options, mesh.report));
+      faces.push_back(read_face(path, volume, options, node_fields, mesh.report));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   if (!problems.empty()) throw InputError(std::move(problems));
   data.faces = std::move(faces);
+  data.node_fields = std::move(node_fields);
   orient_and_check_faces(data, boundary, folder.string());
   return mesh;
 }

@@ -20,8 +20,9 @@ struct NamedRegions {
 struct SimVascularOptions {
   double metres_per_unit = 0;  ///< length unit of the files, for example 0.01 for cm; > 0
   double tolerance = 1e-3;     ///< for the coordinates of face nodes, as a share of the shortest edge at the node
-  std::optional<NamedRegions> regions{};  ///< else the volume is one region
-  std::vector<std::string> fields{};      ///< cell arrays that are kept with the elements
+  std::optional<NamedRegions> regions{};                          ///< else the volume is one region
+  std::vector<std::string> fields{};                              ///< cell arrays that are kept with the elements
+  std::map<std::string, std::vector<std::string>> face_arrays{};  ///< point arrays of faces that are kept, by face
 };
 
 /// Reads a `mesh-complete` folder: `mesh-complete.mesh.vtu` and one named face for each `mesh-surfaces/*.vtp` (other
@@ -35,7 +36,7 @@ struct SimVascularOptions {
 /// one face. Faces are called after their files. Throws InputError for missing or
 /// unreadable files, cells that are not linear tetrahedra, coordinates that are not finite, nodes without element,
 /// inverted elements, face nodes that the volume does not have, a boundary that the faces do not cover exactly once,
-/// cell arrays that are absent or not finite, region numbers without a name and names without an element.
+/// cell or point arrays that are absent or not finite, region numbers without a name and names without an element.
 LoadedMesh read_simvascular(const std::filesystem::path& folder, RegionKind kind, const std::string& name,
                             const SimVascularOptions& options);
 

@@ -65,14 +65,17 @@ std::vector<std::int64_t> integers(vtkDataSetAttributes* attributes, const char*
   return values;
 }
 
-ElementField cell_field(vtkDataSetAttributes* attributes, const std::string& name, const std::filesystem::path& path) {
+/// `kind`: "cell" or "point".
+ElementField field_of(vtkDataSetAttributes* attributes, const char* kind, const std::string& name,
+                      const std::filesystem::path& path) {
   vtkDataArray* array = attributes->GetArray(name.c_str());
   if (!array) {
     std::string names;
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
       if (const char* other = attributes->GetArrayName(i)) names += (names.empty() ? "" : ", ") + std::string(other);
-    throw InputError(path.string(), "there is no numeric cell array called " + name,
-                     names.empty() ? "write one to the file, it has no cell arrays" : "use one of: " + names);
+    throw InputError(
+        path.string(), fmt::format("there is no numeric {} array called {}", kind, name),
+        names.empty() ? fmt::format("write one to the file, it has no {} arrays", kind) : "use one of: " + names);
   }
   ElementField field{name, array->GetNumberOfComponents(), {}};
   for (vtkIdType c = 0; c < array->GetNumberOfTuples(); ++c)
@@ -112,11 +115,11 @@ VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<st
   vtkUnstructuredGrid* grid = reader->GetOutput();
   VtkCells cells = arrays(
       grid, grid->GetCells(), [&](std::int64_t c, vtkIdType) { return grid->GetCellType(c); }, path);
-  for (const auto& name : fields) cells.fields.push_back(cell_field(grid->GetCellData(), name, path));
+  for (const auto& name : fields) cells.fields.push_back(field_of(grid->GetCellData(), "cell", name, path));
   return cells;
 }
 
-VtkCells read_vtk_surface(const std::filesystem::path& path) {
+VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields) {
   vtkNew<vtkXMLPolyDataReader> reader;
   update(reader.Get(), path);
   vtkPolyData* surface = reader->GetOutput();
@@ -125,9 +128,16 @@ VtkCells read_vtk_surface(const std::filesystem::path& path) {
     refuse(path, fmt::format("holds {} vertices, {} lines and {} strips beside {} polygons; only triangles are allowed",
                              surface->GetNumberOfVerts(), surface->GetNumberOfLines(), surface->GetNumberOfStrips(),
                              surface->GetNumberOfPolys()));
-  return arrays(
+  VtkCells cells = arrays(
       surface, surface->GetPolys(), [](std::int64_t, vtkIdType size) { return size == 3 ? VTK_TRIANGLE : VTK_POLYGON; },
       path);
+  for (const auto& name : fields) {
+    auto field = field_of(surface->GetPointData(), "point", name, path);
+    if (field.components != 1)
+      refuse(path, fmt::format("point array {} has {} components, one is expected", name, field.components));
+    cells.node_fields.push_back({name, std::move(field.values)});
+  }
+  return cells;
 }
 
 }  // namespace tunica::mesh

@@ -19,11 +19,13 @@ struct VtkCells {
   std::vector<std::int64_t> connectivity;  ///< 0-based points
   std::vector<std::int64_t> global_node_ids, global_element_ids;  ///< as in the file; empty when it has none
   std::vector<ElementField> fields;                               ///< the cell arrays that were asked for
+  std::vector<NodeField> node_fields;                             ///< the point arrays that were asked for
 };
 
 /// Reads a .vtu or .vtp file of any encoding. Throws InputError when it is missing, not of that kind, damaged, or its
-/// cells name points that do not exist. `fields`: cell arrays to be read, too; one that is absent is an error.
+/// cells name points that do not exist. `fields`: cell arrays, or of a surface point arrays of one component, to be
+/// read, too; one that is absent is an error.
 VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
-VtkCells read_vtk_surface(const std::filesystem::path& path);
+VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
 
 }  // namespace tunica::mesh

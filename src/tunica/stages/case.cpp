@@ -177,6 +177,7 @@ void check_case(const Case& c, Problems& problems) {
   const Part parts[] = {
       {"fluid", c.solves_fluid(), c.fluid.has_value(), "add `fluid:`; with `{}` it has the usual values of blood"},
       {"wall", c.solves_wall(), c.wall.has_value(), "add `wall:` with density and material"},
+      {"prestress", c.prestress && c.solves_wall(), c.prestress.has_value(), ""},
       {"mesh_motion", coupled, coupled || c.mesh_motion.has_value(), ""},
       {"time", !static_wall, c.time.has_value(), "add `time: {step: 1 ms, steps: 100}`"},
       {"meshes.lumen", c.solves_fluid(), c.meshes.has_lumen(), "give a mesh of the lumen"},
@@ -190,6 +191,14 @@ void check_case(const Case& c, Problems& problems) {
     if (!part.wanted && part.present)
       problems.add(part.key, fmt::format("is given, but `analysis: {}` does not use it", analysis),
                    "remove it, or choose another analysis");
+  }
+  if (c.prestress && c.solves_wall()) {
+    if (coupled && !c.prestress->flow)
+      problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",
+                   "add `flow: {pressure: 80 mmHg, inflow: 80 ml/s}`");
+    if (!coupled && c.prestress->flow)
+      problems.add("prestress.flow", fmt::format("is given, but `analysis: {}` has no flow", analysis),
+                   "remove it: the loads on the wall are those of `boundary`");
   }
   if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
 }
@@ -294,6 +303,9 @@ Schema<Case> Case::schema() {
       .map("boundary", &Case::boundary, bc::condition_schema(),
            "The condition of every face except the interface, by the name of the face")
       .section("time", &Case::time, coupling::TimeSettings::schema(), "Time stepping; for all but `static_wall`")
+      .path("start", &Case::start,
+            "State that the run starts from: start.checkpoint of `tunica prestress`; at rest when left out")
+      .section("prestress", &Case::prestress, PrestressCase::schema(), "What `tunica prestress` shall find, and how")
       .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
       .by_default()
       .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")

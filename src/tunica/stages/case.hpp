@@ -17,6 +17,7 @@
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/prestress/settings.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
@@ -101,6 +102,8 @@ struct Case {
   std::optional<ale::Parameters> mesh_motion;  ///< for fluid-structure interaction; always present there
   std::vector<std::pair<std::string, bc::Condition>> boundary;  ///< face name, condition, as in the file
   std::optional<coupling::TimeSettings> time;                   ///< all but static walls
+  std::optional<std::filesystem::path> start;                   ///< state to start from; else at rest
+  std::optional<PrestressCase> prestress;                       ///< what `tunica prestress` shall do
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;

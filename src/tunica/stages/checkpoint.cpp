@@ -37,7 +37,8 @@ parallel::NodeOrder node_order(const mesh::DistributedMesh& mesh) {
 
 json header_of(const Checkpoint& c, std::int64_t nodes) {
   json outlets = json::array();
-  for (const auto& outlet : c.state.outlets) outlets.push_back({{"face", outlet.face()}, {"state", outlet.state()}});
+  for (const auto& outlet : c.state.outlets)
+    outlets.push_back({{"face", outlet.face()}, {"state", outlet.state()}, {"pressure", outlet.pressure()}});
   const auto& p = c.position;
   return {{"nodes", nodes},
           {"case_hash", c.case_hash},
@@ -178,9 +179,12 @@ void write_checkpoint(const fs::path& file, const mesh::DistributedMesh& mesh, c
   });
 }
 
-Checkpoint read_checkpoint(const fs::path& file, const mesh::DistributedMesh& mesh, const coupling::State& start,
-                           std::uint64_t mesh_hash) {
-  Checkpoint c{.state = start, .position = {}};
+namespace {
+
+/// Reads header and nodal fields. `take(header)` is called on all ranks.
+template <class Take>
+void read(const fs::path& file, const mesh::DistributedMesh& mesh, std::uint64_t mesh_hash, coupling::State& state,
+          const Take& take) {
   std::optional<Reader> reader;
   std::string header = parallel::on_root(mesh.comm, [&] {
     reader.emplace(file);
@@ -195,7 +199,7 @@ Checkpoint read_checkpoint(const fs::path& file, const mesh::DistributedMesh& me
   parallel::broadcast(mesh.comm, header);
   parallel::agree(mesh.comm, [&] {
     try {
-      take_header(json::parse(header), c, file.string());
+      take(json::parse(header));
     } catch (const json::exception& error) {
       damaged(file, fmt::format("the header is damaged: {}", error.what()));
     }
@@ -204,12 +208,30 @@ Checkpoint read_checkpoint(const fs::path& file, const mesh::DistributedMesh& me
   std::vector<double> field(root ? 4 * static_cast<std::size_t>(mesh.global_nodes) : 0);
   for (const auto member : nodal_fields()) {
     parallel::on_root(mesh.comm, [&] { reader->read(field.data(), field.size() * sizeof(double)); });
-    auto& values = c.state.*member;
+    auto& values = state.*member;
     parallel::scatter_by_original_id(node_order(mesh), field, values, 4);
     mesh.halo.update(values, 4);
   }
   parallel::on_root(mesh.comm, [&] { reader->finish(); });
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const fs::path& file, const mesh::DistributedMesh& mesh, const coupling::State& start,
+                           std::uint64_t mesh_hash) {
+  Checkpoint c{.state = start, .position = {}};
+  read(file, mesh, mesh_hash, c.state, [&](const json& header) { take_header(header, c, file.string()); });
   return c;
+}
+
+std::vector<OutletStart> read_start(const fs::path& file, const mesh::DistributedMesh& mesh, coupling::State& state,
+                                    std::uint64_t mesh_hash) {
+  std::vector<OutletStart> outlets;
+  read(file, mesh, mesh_hash, state, [&](const json& header) {
+    for (const auto& outlet : header.at("outlets"))
+      outlets.push_back({outlet.at("face"), outlet.at("state").at(0), outlet.at("pressure")});
+  });
+  return outlets;
 }
 
 fs::path checkpoint_file(const fs::path& folder, std::int64_t step) {

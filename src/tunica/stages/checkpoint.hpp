@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tunica/coupling/state.hpp"
@@ -28,6 +29,16 @@ void write_checkpoint(const std::filesystem::path& file, const mesh::Distributed
 /// on all ranks when the file cannot be read, is damaged, or belongs to another mesh or other outlets. Collective.
 Checkpoint read_checkpoint(const std::filesystem::path& file, const mesh::DistributedMesh& mesh,
                            const coupling::State& start, std::uint64_t mesh_hash);
+
+/// An outlet of a checkpoint.
+struct OutletStart {
+  std::string face;
+  double flow, pressure;  ///< m^3/s, Pa
+};
+/// Takes the nodal fields of `state` from a checkpoint, for a run that starts from it at time zero, and returns its
+/// outlets, which need not be those of the case. Throws as read_checkpoint. Collective.
+std::vector<OutletStart> read_start(const std::filesystem::path& file, const mesh::DistributedMesh& mesh,
+                                    coupling::State& state, std::uint64_t mesh_hash);
 
 /// Name of the checkpoint after `step` completed steps.
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder, std::int64_t step);

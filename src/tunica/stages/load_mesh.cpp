@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tunica/bc/check.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -11,6 +12,7 @@
 #include "tunica/mesh/quality.hpp"
 #include "tunica/mesh/simvascular.hpp"
 #include "tunica/stages/hash.hpp"
+#include "tunica/stages/prestress/prestress_file.hpp"
 
 namespace tunica::stages {
 
@@ -29,17 +31,32 @@ void collect(std::vector<Problem>& problems, Action action) {
   }
 }
 
+/// Point arrays that the supports of the case want, by face.
+std::map<std::string, std::vector<std::string>> support_arrays(const Case& c) {
+  std::map<std::string, std::vector<std::string>> arrays;
+  for (const auto& [face, condition] : c.boundary)
+    if (const auto* support = std::get_if<bc::Support>(&condition); support && !support->arrays().empty())
+      arrays[face] = support->arrays();
+  return arrays;
+}
+
+/// What the wall needs of its mesh besides the shape.
+struct WallArrays {
+  std::vector<std::string> fields;                              ///< of the elements
+  std::map<std::string, std::vector<std::string>> face_arrays;  ///< of the nodes of faces
+};
+
 mesh::SimVascularOptions wall_options(const WallMesh& wall, mesh::SimVascularOptions options,
-                                      const std::vector<std::string>& fields) {
-  options.fields = fields;
+                                      const WallArrays& arrays) {
+  options.fields = arrays.fields;
+  options.face_arrays = arrays.face_arrays;
   if (!wall.region_array) return options;
   options.regions.emplace().array = *wall.region_array;
   for (const auto& [name, number] : wall.regions) options.regions->names.emplace(number, name);
   return options;
 }
 
-/// `fields`: element values that the wall needs.
-LoadedMesh read_regions(const MeshSettings& m, const std::vector<std::string>& fields) {
+LoadedMesh read_regions(const MeshSettings& m, const WallArrays& arrays) {
   std::vector<LoadedMesh> parts;
   std::vector<Problem> problems;
   const mesh::SimVascularOptions options{.metres_per_unit = *m.metres_per_unit};
@@ -50,7 +67,7 @@ LoadedMesh read_regions(const MeshSettings& m, const std::vector<std::string>& f
   if (m.wall)
     collect(problems, [&] {
       parts.push_back(mesh::read_simvascular(m.wall->simvascular, RegionKind::wall, "wall",
-                                             wall_options(*m.wall, options, fields)));
+                                             wall_options(*m.wall, options, arrays)));
     });
   if (!problems.empty()) throw InputError(std::move(problems));
   if (!m.interface) return mesh::join(parts, {}, {});
@@ -58,10 +75,14 @@ LoadedMesh read_regions(const MeshSettings& m, const std::vector<std::string>& f
   return mesh::join(parts, std::span(&interface, 1), {.tolerance = m.interface->tolerance});
 }
 
-LoadedMesh read_or_generate(const MeshSettings& m, const std::vector<std::string>& fields) {
+LoadedMesh read_or_generate(const MeshSettings& m, const WallArrays& arrays) {
+  if ((m.tube || m.gmsh) && !arrays.face_arrays.empty())
+    throw InputError("boundary." + arrays.face_arrays.begin()->first,
+                     "names a point array, which only SimVascular folders bring",
+                     "give a constant, or the wall as `simvascular`");
   if (m.tube) return {mesh::tube(*m.tube), {}};
-  if (!m.gmsh) return read_regions(m, fields);
-  mesh::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}, .fields = fields};
+  if (!m.gmsh) return read_regions(m, arrays);
+  mesh::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}, .fields = arrays.fields};
   for (const auto& [name, kind] : m.gmsh->regions) options.regions.push_back({name, kind});
   return mesh::read_gmsh(m.gmsh->file, options);
 }
@@ -90,9 +111,8 @@ void report_quality(CheckedMesh& mesh, std::vector<Problem>& problems) {
 }
 
 /// The meshes with what is to be said of their elements; what is wrong with these is added to `problems`.
-CheckedMesh read_and_measure(const MeshSettings& m, const std::vector<std::string>& fields,
-                             std::vector<Problem>& problems) {
-  LoadedMesh loaded = read_or_generate(m, fields);
+CheckedMesh read_and_measure(const MeshSettings& m, const WallArrays& arrays, std::vector<Problem>& problems) {
+  LoadedMesh loaded = read_or_generate(m, arrays);
   CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
   report_quality(mesh, problems);
   return mesh;
@@ -111,7 +131,7 @@ std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSetti
 
 CheckedMesh load_meshes(const MeshSettings& meshes, const std::vector<std::string>& fields) {
   std::vector<Problem> problems;
-  CheckedMesh mesh = read_and_measure(meshes, fields, problems);
+  CheckedMesh mesh = read_and_measure(meshes, {fields, {}}, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return mesh;
 }
@@ -120,9 +140,12 @@ CheckedMesh load_mesh(const Case& c) {
   const bool needs_frames = c.wall && c.wall->fibre_frame;
   std::vector<Problem> problems;
   CheckedMesh mesh = read_and_measure(
-      c.meshes, needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{}, problems);
+      c.meshes,
+      {needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{}, support_arrays(c)},
+      problems);
   const auto wrong = bc::check_boundary(boundary_case(c, mesh.data));
   problems.insert(problems.end(), wrong.begin(), wrong.end());
+  if (c.wall && c.wall->prestress) collect(problems, [&] { read_prestress(*c.wall->prestress, mesh.data); });
   if (!problems.empty()) throw InputError(std::move(problems));
   return mesh;
 }
@@ -167,6 +190,11 @@ std::uint64_t mesh_hash(const mesh::MeshData& data) {
     for (const auto& t : face.triangles) hash.add(&t, sizeof t);
   }
   for (const auto& field : data.fields) {
+    if (field.name == wall::prestress_array) continue;
+    hash.add(field.name.data(), field.name.size());
+    hash.add(field.values.data(), field.values.size() * sizeof(double));
+  }
+  for (const auto& field : data.node_fields) {
     hash.add(field.name.data(), field.name.size());
     hash.add(field.values.data(), field.values.size() * sizeof(double));
   }

@@ -19,8 +19,9 @@ struct CheckedMesh {
   std::vector<std::string> warnings;  ///< elements of poor shape
 };
 
-/// Reads or generates the meshes of the case, joins them, checks the shapes of the elements and that every face has
-/// exactly one condition. Throws InputError with all problems that were found. Not collective: for one rank.
+/// Reads or generates the meshes of the case, joins them, adds the prestress that the wall has, checks the shapes of
+/// the elements and that every face has exactly one condition. Throws InputError with all problems that were found. Not
+/// collective: for one rank.
 CheckedMesh load_mesh(const Case& c);
 
 /// The same without conditions on the faces. `fields`: element values of the wall that are kept.
@@ -31,7 +32,8 @@ CheckedMesh load_meshes(const MeshSettings& meshes, const std::vector<std::strin
 std::string meshes_section(const std::vector<std::string>& wall_regions,
                            const std::optional<InterfaceSettings>& interface);
 
-/// Number that changes with any coordinate, element, face or twin: two runs with the same number have the same mesh.
+/// Number that changes with any coordinate, element, face, field or twin: two runs with the same number have the same
+/// mesh. Prestress is no part of it.
 std::uint64_t mesh_hash(const mesh::MeshData& data);
 
 /// (lumen face, wall face) pairs of the interface, in which every face of either side occurs.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -17,6 +19,8 @@
 #include "tunica/stages/fields.hpp"
 #include "tunica/stages/hash.hpp"
 #include "tunica/stages/histories.hpp"
+#include "tunica/stages/prestress/prestress_file.hpp"
+#include "tunica/stages/problem_input.hpp"
 #include "tunica/stages/step_grid.hpp"
 
 namespace tunica::stages {
@@ -29,24 +33,11 @@ namespace {
 constexpr int static_halvings = 6;
 constexpr std::size_t kept_checkpoints = 2;
 
-coupling::ProblemInput problem_input(const Case& c) {
-  coupling::ProblemInput input;
-  input.fluid = c.fluid;
-  input.wall = c.wall;
-  if (c.mesh_motion) input.mesh_motion = *c.mesh_motion;
-  input.boundary.conditions = c.boundary;
-  input.boundary.interfaces = interface_pairs(c.meshes);
-  input.boundary.wall_has_pressure = c.wall && c.wall->element == wall::Element::mixed;
-  input.boundary.fluid = c.fluid;
-  if (c.time) input.rho_infinity = c.time->rho_infinity;
-  input.newton = c.newton;
-  input.linear = c.linear;
-  return input;
-}
-
-std::uint64_t text_hash(const std::string& text) {
+/// Of the text and of the prestress that it names. For rank 0.
+std::uint64_t case_hash(const ReadCase& c) {
   Hash hash;
-  hash.add(text.data(), text.size());
+  hash.add(c.text.data(), c.text.size());
+  if (const auto prestress = prestress_hash(c.mesh.data); prestress != 0) hash.add(&prestress, sizeof prestress);
   return hash.value();
 }
 
@@ -76,6 +67,7 @@ class Run {
   void prepare_folder();
   void distribute();
   void restore();
+  void start_from(const fs::path& file);
   void open_outputs();
 
   StepReport attempt();
@@ -125,10 +117,11 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
       comm_(comm),
       folder_(request.directory.value_or(c.settings.output.directory)),
       time_unit_(config::unit_factor(c.settings.output.units.time, config::dimension::time)),
-      case_hash_(text_hash(c.text)),
       grid_(make_grid(nullptr)) {
   mesh_hash_ = parallel::on_root(comm_, [&] { return mesh_hash(input_.mesh.data); });
   parallel::broadcast(comm_, mesh_hash_);
+  case_hash_ = parallel::on_root(comm_, [&] { return case_hash(input_); });
+  parallel::broadcast(comm_, case_hash_);
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
   if (!case_.title.empty()) log_->info(case_.title);
@@ -191,9 +184,26 @@ void Run::distribute() {
     for (const auto& line : problem_->wall_model().notes()) log_->info(line);
 }
 
+// Fields and flows of the outlets, at time zero. A Windkessel that names no initial pressure starts from the pressure
+// that its face has there.
+void Run::start_from(const fs::path& file) {
+  const auto outlets = read_start(file, mesh_, state_, mesh_hash_);
+  for (auto& outlet : state_.outlets) {
+    const auto found =
+        std::find_if(outlets.begin(), outlets.end(), [&](const auto& o) { return o.face == outlet.face(); });
+    if (found == outlets.end()) continue;
+    outlet.set_initial_flow(found->flow);
+    for (const auto& [face, condition] : case_.boundary)
+      if (const auto* rcr = std::get_if<bc::Rcr>(&condition); rcr && face == outlet.face() && !rcr->initial_pressure)
+        outlet.restore(std::array{found->flow, found->pressure - rcr->proximal * found->flow});
+  }
+  log_->info(fmt::format("starting from {}", file.string()));
+}
+
 void Run::restore() {
   state_ = problem_->initial_state();
   if (const auto* statics = std::get_if<StaticWall>(&case_.analysis)) state_.time = statics->load_time;
+  if (case_.start && !continued()) start_from(*case_.start);
   if (!continued()) return;
   std::string name = parallel::on_root(comm_, [&] {
     if (request_.restart_file) return request_.restart_file->string();
@@ -211,7 +221,9 @@ void Run::restore() {
   log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
-    log_->warning("the case file has changed since the checkpoint was written; the run goes on with the new one");
+    log_->warning(
+        "the case file or its prestress has changed since the checkpoint was written; the run goes on with the new "
+        "one");
 }
 
 void Run::open_outputs() {

@@ -58,7 +58,7 @@ using Body = BodyOf<double>;
 template <class T>
 struct ElementState {
   fe::Gradients<T> reference;       ///< gradients with respect to X [1/m], volume [m^3]
-  Mat3<T> axes = identity<T>();     ///< columns: the axes of these gradients in global components, orthonormal
+  Mat3<T> axes = identity<T>();     ///< columns: axes of these gradients, global components; orthonormal, or times F0
   Vec3<T> displacement[fe::nodes];  ///< u at t_{n+alpha_f} [m]
   Vec3<T> acceleration[fe::nodes];  ///< v_dot at t_{n+alpha_m} [m/s^2]
   T pressure[fe::nodes];            ///< p at t_{n+1} [Pa], mixed element only
@@ -315,11 +315,11 @@ TUNICA_INLINE void add_isochoric_projection(const ElementState<T>& e, const Kine
 
 /// Adds the force V F S_u grad_X N_a of a stress outside the isochoric split.
 template <class T>
-TUNICA_INLINE void add_unsplit_residual(const ElementState<T>& e, const Kinematics<T>& k, const Symmetric<T>& S,
+TUNICA_INLINE void add_unsplit_residual(const ElementState<T>& e, const Mat3<T>& F, const Symmetric<T>& S,
                                         fe::ElementVector<T>& r) {
 #pragma GCC unroll 4
   for (int a = 1; a < fe::nodes; ++a) {
-    const Vec3<T> force = e.reference.volume * (k.F * (S * e.reference.dN[a]));
+    const Vec3<T> force = e.reference.volume * (F * (S * e.reference.dN[a]));
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       r.r[a][i] += force[i];
@@ -392,7 +392,7 @@ TUNICA_INLINE void add_momentum(const ElementState<T>& e, const Kinematics<T>& k
                                 const T& density, fe::ElementVector<T>& r) {
   momentum_residual(e, k, project(e, k, stress(law, k.C_bar), pi), density, r);
   if constexpr (can_be_unsplit<L>)
-    if (law.has_unsplit_part()) add_unsplit_residual(e, k, law.unsplit_stress(right_cauchy_green(k.F)), r);
+    if (law.has_unsplit_part()) add_unsplit_residual(e, k.F, law.unsplit_stress(right_cauchy_green(k.F)), r);
 }
 
 /// The same with the tangent of the motion; kappa = J dpi/dJ.
@@ -417,7 +417,7 @@ TUNICA_INLINE void add_momentum(const ElementState<T>& e, const Kinematics<T>& k
     momentum_residual(e, k, s, density, r);
     momentum_tangent<T>(e, k, s, &both.tangent, extra, kappa, density, c, m);
   }
-  if (extra != nullptr) add_unsplit_residual(e, k, extra->stress, r);
+  if (extra != nullptr) add_unsplit_residual(e, k.F, extra->stress, r);
 }
 
 template <class T>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tunica/wall/element.hpp"
+#include "tunica/wall/prestress.hpp"
 
 namespace tunica::wall {
 
@@ -52,23 +53,29 @@ TUNICA_INLINE T mixed_strain_energy(const ElementState<T>& e, const L& law, cons
 
 namespace detail {
 
+/// F S F^T / J.
+template <class T>
+TUNICA_INLINE Symmetric<T> push_forward(const Mat3<T>& F, const Symmetric<T>& S, const T& J) {
+  const Mat3<T> FS = F * full(S);
+  const T inverse_J = T(1.0) / J;
+  Symmetric<T> sigma;
+  for (int n = 0; n < voigt_size; ++n) {
+    const int i = voigt_row[n], j = voigt_column[n];
+    sigma[n] = inverse_J * (FS(i, 0) * F(j, 0) + FS(i, 1) * F(j, 1) + FS(i, 2) * F(j, 2));
+  }
+  return sigma;
+}
+
 /// sigma = [F (S' + S_u) F^T + (pi - theta) I] / J with S' = J^(-2/3) S_bar, (1.5) pushed forward.
 template <class T, class L>
 TUNICA_INLINE Symmetric<T> cauchy(const Kinematics<T>& k, const L& law, const T& pi) {
   const Symmetric<T> S_bar = stress(law, k.C_bar);
-  const T inverse_J = T(1.0) / k.J;
   Symmetric<T> S = k.scale * S_bar;
   if constexpr (can_be_unsplit<L>)
     if (law.has_unsplit_part()) S = S + law.unsplit_stress(right_cauchy_green(k.F));
-  const Mat3<T> FS = k.F * full(S);
-  const T isotropic = pi - T(1.0 / 3.0) * double_dot(S_bar, k.C_bar);
-  Symmetric<T> sigma;
-  for (int n = 0; n < voigt_size; ++n) {
-    const int i = voigt_row[n], j = voigt_column[n];
-    T sum = FS(i, 0) * k.F(j, 0) + FS(i, 1) * k.F(j, 1) + FS(i, 2) * k.F(j, 2);
-    if (i == j) sum += isotropic;
-    sigma[n] = inverse_J * sum;
-  }
+  Symmetric<T> sigma = push_forward(k.F, S, k.J);
+  const T isotropic = (pi - T(1.0 / 3.0) * double_dot(S_bar, k.C_bar)) / k.J;
+  for (int n = 0; n < 3; ++n) sigma[n] += isotropic;
   return sigma;
 }
 
@@ -87,6 +94,13 @@ template <class T, class L>
 TUNICA_INLINE Symmetric<T> mixed_cauchy_stress(const ElementState<T>& e, const L& law) {
   const Kinematics<T> k = kinematics(e);
   return detail::cauchy(k, law, T(-k.J * detail::mean_pressure(e)));
+}
+
+/// What the prestress S0 [Pa] adds to the Cauchy stress [Pa].
+template <class T>
+TUNICA_INLINE Symmetric<T> prestress_cauchy_stress(const ElementState<T>& e, const Symmetric<T>& S0) {
+  const Mat3<T> F = deformation_gradient(e);
+  return detail::push_forward(F, S0, determinant(F));
 }
 
 /// von Mises equivalent stress [Pa].

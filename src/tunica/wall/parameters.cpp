@@ -86,6 +86,8 @@ config::Schema<Parameters> Parameters::schema() {
           "it jumps")
       .section("fibre_frame", &Parameters::fibre_frame, frame_schema(),
                "Circumferential, longitudinal and radial direction; for laws with fibres")
+      .path("prestress", &Parameters::prestress,
+            "Prestress of the imaged shape: the file wall.vtu that `tunica prestress` has written")
       .include(&Parameters::volumetric_energy, volumetric_energy_schema())
       .number("stabilisation", &Parameters::stabilisation, config::above(0),
               "Constant c of the mixed element's subscale, c h^2 / mu; larger damps pressure oscillations more")

@@ -1,6 +1,7 @@
 // The wall section of the case file.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct Parameters {
   std::map<std::string, RegionMaterial> regions;
   std::optional<double> smoothing_length;  ///< over which one material turns into the next [m]; 0: they jump
   std::optional<FrameSource> fibre_frame;
+  std::optional<std::filesystem::path> prestress;  ///< file of `tunica prestress`
   VolumetricEnergy volumetric_energy = VolumetricEnergy::simo_taylor;
   double stabilisation = default_stabilisation;  ///< c in tau_u = c h^2 / mu [-]
 

@@ -101,8 +101,16 @@ TEST(ConditionSchema, PressureVelocityTractionSupport) {
       as<Traction>("{traction: {value: [1 Pa, 0 Pa, 0 Pa], waveform: {step: {value: 3, start: 1 s}}}}");
   EXPECT_EQ(make_waveform(traction.course).value(2.0), 3.0);
   const auto support = as<Support>("{support: {stiffness: 1e7 N/m^3, damping: 1e4 N s/m^3, direction: normal}}");
-  EXPECT_EQ(support.stiffness, 1e7);
-  EXPECT_EQ(support.damping, 1e4);
+  EXPECT_EQ(std::get<double>(support.stiffness), 1e7);
+  EXPECT_EQ(std::get<double>(support.damping), 1e4);
+  EXPECT_EQ(std::get<double>(support.pressure), 0.0);
+  const auto varying = as<Support>("{support: {stiffness: {array: {name: ks, unit: N/cm^3}}, pressure: 2 kPa}}");
+  EXPECT_EQ(std::get<FaceArray>(varying.stiffness).name, "ks");
+  EXPECT_DOUBLE_EQ(std::get<FaceArray>(varying.stiffness).unit, 1e6);
+  EXPECT_EQ(std::get<double>(varying.pressure), 2e3);
+  EXPECT_EQ(varying.arrays(), std::vector<std::string>{"ks"});
+  EXPECT_TRUE(varying.holds());
+  EXPECT_TRUE(contains(refusal("{support: {stiffness: {array: {name: ks, unit: kPa}}}}"), "unit"));
   EXPECT_EQ(support.direction, Support::Direction::normal);
   EXPECT_TRUE(contains(refusal("{support: {stiffness: 1e7 N/m}}"), "stiffness"));
   EXPECT_TRUE(contains(refusal("{pressure: {follower: true}}"), "value"));

@@ -332,6 +332,48 @@ TEST(Boundaries, PressureLevelIsHeldAtOneNode) {
   EXPECT_EQ(parallel::global_sum(MPI_COMM_WORLD, held), 1);
 }
 
+// k_s grows linearly along the tube, so that the mean of the nodes integrates it exactly on every triangle.
+TEST(Boundaries, SupportVariesOverItsFace) {
+  auto data = test::fsi_tube();
+  const double length = test::tube_sizes(0.0).length;
+  auto& field = data.node_fields.emplace_back();
+  field.name = mesh::face_array_name("wall_outer", "k");
+  for (const auto& x : data.points) field.values.push_back(1.0 + 2.0 * x[2] / length);
+  auto input = test::fsi_input(test::pressure(0.0), test::pressure(0.0));
+  const auto force_with = [&](const bc::SupportValue& stiffness) {
+    input.boundary.conditions.back().second = bc::Support{.stiffness = stiffness};
+    const Bound b(data, input.boundary);
+    auto fields = test::random_fields(b.mesh, {0, 0, 0, 0});
+    for (std::size_t k = 0; k < fields.displacement.size(); k += 4) fields.displacement[k] = 1e-4;
+    std::vector<double> residual(at(b.mesh.nodes()), 0.0);
+    b.boundaries.add_loads(0.0, 1.0, fields.view(), {0.0, 1.0}, residual, nullptr);
+    return b.sum(residual)[0];
+  };
+  const double constant = force_with(2e6), varying = force_with(bc::FaceArray{"k", 1e6});
+  EXPECT_GT(constant, 0.1);
+  EXPECT_NEAR(varying, constant, 1e-12 * constant);  // the mean of 1 .. 3 times 1e6
+  EXPECT_THROW(force_with(bc::FaceArray{"stiffness", 1e6}), InputError);
+  EXPECT_THROW(force_with(bc::FaceArray{"k", -1e6}), InputError);
+}
+
+TEST(Boundaries, NodalPressureIsAFollowerPressure) {
+  auto input = test::fsi_input(test::pressure(0.0), test::pressure(0.0));
+  const auto residual_with = [&](const bc::Condition& outer, double nodal) {
+    input.boundary.conditions.back().second = outer;
+    const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+    input.boundary.wall_pressures.clear();
+    if (nodal != 0) input.boundary.wall_pressures.emplace_back("wall_outer", std::vector(mesh.points.size(), nodal));
+    const Bound b(test::fsi_tube(), input.boundary);
+    const auto fields = test::random_fields(b.mesh);
+    std::vector<double> residual(at(b.mesh.nodes()), 0.0);
+    b.boundaries.add_loads(0.0, 0.5, fields.view(), {0.0, 1.0}, residual, nullptr);
+    return residual;
+  };
+  const auto expected = residual_with(test::pressure(3e3), 0.0), found = residual_with(bc::Free{}, 3e3);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-15);
+}
+
 TEST(Boundaries, RefuseAFaceThatIsNotThere) {
   const auto mesh = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
   const auto pattern = assembly::make_pattern(mesh);

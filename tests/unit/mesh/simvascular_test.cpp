@@ -8,6 +8,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
+#include "tunica/mesh/submesh.hpp"
 #include "unit/mesh/check_mesh.hpp"
 #include "unit/mesh/temporary_folder.hpp"
 
@@ -238,27 +239,8 @@ TEST(SimVascular, LumenAndWallFoldersJoin) {
                            .cells_along = 2,
                            .cells_through_wall = 1});
   std::vector<LoadedMesh> parts;
-  for (int r : {0, 1}) {
-    MeshData part;
-    const auto& region = whole.regions[r];
-    std::map<std::int64_t, std::int64_t> local;
-    for (auto e = region.first_element; e < region.end_element; ++e)
-      for (auto n : whole.tetrahedra[e]) local.emplace(n, 0);
-    for (auto& [node, number] : local) {
-      number = std::ssize(part.points);
-      part.points.push_back(whole.points[node]);
-    }
-    for (auto e = region.first_element; e < region.end_element; ++e) {
-      auto t = whole.tetrahedra[e];
-      for (auto& n : t) n = local[n];
-      part.tetrahedra.push_back(t);
-    }
-    for (auto f : whole.faces)
-      if (f.region == r) {
-        for (auto& t : f.triangles)
-          for (auto& n : t) n = local[n];
-        part.faces.push_back(f);
-      }
+  for (const auto& region : whole.regions) {
+    const auto part = submesh(whole, region.kind).data;
     const TemporaryFolder folder;
     write(folder.path(), part, {});
     parts.push_back(read_simvascular(folder.path(), region.kind, region.name, {.metres_per_unit = 0.01}));
@@ -269,6 +251,28 @@ TEST(SimVascular, LumenAndWallFoldersJoin) {
   auto expected = whole.twins;
   std::sort(expected.begin(), expected.end());
   EXPECT_EQ(joined.data.twins, expected);
+}
+
+// Node numbers serve as values that the test knows.
+TEST(SimVascular, KeepsPointArraysOfFaces) {
+  const TemporaryFolder folder;
+  write(folder.path(), block(), {});
+  SimVascularOptions options{.metres_per_unit = 0.01};
+  options.face_arrays = {{"x_min", {"GlobalNodeID"}}};
+  const auto data = read_simvascular(folder.path(), RegionKind::lumen, "lumen", options).data;
+  ASSERT_EQ(data.node_fields.size(), 1u);
+  EXPECT_EQ(data.node_fields[0].name, "x_min.GlobalNodeID");
+  for (std::size_t n = 0; n < data.points.size(); ++n) {
+    const double value = data.node_fields[0].values[n];
+    if (data.points[n][0] < 1e-9)
+      EXPECT_EQ(value, static_cast<double>(n + 1));
+    else
+      EXPECT_TRUE(std::isnan(value)) << n;
+  }
+  options.face_arrays = {{"x_min", {"stiffness"}}};
+  const auto refused =
+      message_of<InputError>([&] { read_simvascular(folder.path(), RegionKind::lumen, "lumen", options); });
+  EXPECT_NE(refused.find("no numeric point array called stiffness"), std::string::npos) << refused;
 }
 
 }  // namespace tunica::mesh

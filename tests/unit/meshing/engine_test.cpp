@@ -60,7 +60,7 @@ TEST(Tetrahedralise, ShapesAreGoodAfterImprovement) {
   const auto prepared = tube_with_wall();
   auto mesh = tetrahedralise(prepared.complex, prepared.sizes, {});
   improve(mesh, projection(prepared), {}, [](const std::string&) {});
-  const mesh::MeshData data{mesh.points, mesh.elements, {}, {}, {}, {}};
+  const mesh::MeshData data{mesh.points, mesh.elements, {}, {}, {}, {}, {}};
   EXPECT_GT(shapes(data, 0, std::ssize(mesh.elements)).smallest_dihedral, 10);
   EXPECT_NEAR(test::volume(mesh, lumen_label) / (pi * 25e-6 * 20e-3), 1, 5e-3);
   EXPECT_NEAR(test::volume(mesh, wall_label) / (pi * 11e-6 * 20e-3), 1, 5e-3);

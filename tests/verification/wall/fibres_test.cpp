@@ -6,33 +6,12 @@
 
 #include "verification/wall/banded_newton.hpp"
 #include "verification/wall/cylinder.hpp"
+#include "verification/wall/helical_fibres.hpp"
 
 namespace tunica::verification {
 namespace {
 
 constexpr double systole = 13332.2;  // 100 mmHg [Pa]
-
-/// Two helical families in the plane of the wall, bivariate von Mises.
-wall::DfdParameters helical(double poisson_ratio) {
-  wall::DfdParameters p;
-  p.elastic.shear_modulus = 40e3;
-  p.elastic.poisson_ratio = poisson_ratio;
-  for (const double angle : {0.6, -0.6}) {
-    wall::dfd::Family family;
-    family.energy = {60e3, 5.0};
-    family.orientation = wall::dfd::Bivariate{2.5, 15.0, angle};
-    p.families.push_back(family);
-  }
-  return p;
-}
-
-ProblemInput fibre_input(Element element, const wall::LawParameters& material,
-                         std::vector<std::pair<std::string, bc::Condition>> conditions) {
-  ProblemInput in = solid_input({element}, std::move(conditions));
-  in.wall->material = material;
-  in.wall->fibre_frame = wall::CylindricalFrame{};
-  return in;
-}
 
 /// Inflation R -> r = sqrt(R^2 + a^2 - A^2) of an incompressible tube in plane strain. The families mirror each other,
 /// so that F = diag(r/R, 1, R/r) in the fibre frame and equilibrium over the wall gives the inner pressure

@@ -1,0 +1,297 @@
+#include "tunica/coupling/prestress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "tunica/base/error.hpp"
+#include "tunica/coupling/anderson.hpp"
+#include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/wall_element.hpp"
+#include "tunica/parallel/agree.hpp"
+
+namespace tunica::coupling {
+
+namespace {
+
+using Method = PrestressSettings::Method;
+using Update = PrestressSettings::Update;
+
+constexpr int most_load_steps = 256;
+constexpr double growth = 1.5;  // of the displacement that an update may cause
+constexpr double least_relaxation = 1.0 / 128;
+constexpr std::size_t memory = 5;  // points of the acceleration
+
+WallPrestress without_prestress(const mesh::DistributedMesh& mesh, Method method) {
+  WallPrestress p{.kind = method == Method::stress ? wall::PrestressKind::stress : wall::PrestressKind::stretch};
+  const auto n = static_cast<std::size_t>(wall::components(p.kind));
+  for (const auto& region : mesh.regions) {
+    auto& values = p.values.emplace_back();
+    if (region.kind != mesh::RegionKind::wall) continue;
+    values.assign(n * region.elements.size(), 0.0);
+    if (method == Method::stretch)
+      for (std::size_t k = 0; k < values.size(); k += 9) values[k] = values[k + 4] = values[k + 8] = 1.0;
+  }
+  return p;
+}
+
+/// dx/dX of the motion from the imaged shape, global axes.
+Mat3<double> motion_gradient(const mesh::DistributedMesh& mesh, const State& state,
+                             const std::array<std::int32_t, 4>& nodes) {
+  wall::ElementState<double> e;
+  Vec3<double> X[4];
+  for (int a = 0; a < 4; ++a) {
+    X[a] = mesh.points[nodes[a]];
+    e.displacement[a] = vector_at(state.displacement.data(), nodes[a]);
+  }
+  wall::set_reference(e, X);
+  return wall::deformation_gradient(e);
+}
+
+std::vector<double> flat(const WallPrestress& prestress) {
+  std::vector<double> values;
+  for (const auto& region : prestress.values) values.insert(values.end(), region.begin(), region.end());
+  return values;
+}
+
+class FixedPoint {
+ public:
+  using Follow = std::function<void(const PrestressRecord&)>;
+  FixedPoint(Problem& problem, const PrestressSettings& settings, double load_time, const Follow& follow)
+      : problem_(problem),
+        settings_(settings),
+        mesh_(problem.mesh()),
+        follow_(follow),
+        start_(problem.initial_state()) {
+    find_prestressed_nodes();
+    start_.time = load_time;
+  }
+
+  PrestressResult run();
+
+ private:
+  bool excluded(const mesh::Region& region) const {
+    return std::find(settings_.exclude.begin(), settings_.exclude.end(), region.name) != settings_.exclude.end();
+  }
+  void find_prestressed_nodes();
+  void find_largest_displacement(const State& state, PrestressRecord& record) const;
+  /// Equilibrium under a share of the load with the present prestress, from rest; none when Newton's method fails.
+  std::optional<State> solve(double load, double relaxation);
+  /// Back to no prestress, then all but the last of `steps` shares of the load, with an update after each.
+  bool ramp(int steps);
+  std::optional<State> first_solution();
+  WallPrestress updated(const State& loaded) const;
+  void set(const std::vector<double>& values);
+  std::vector<double> displacements(const State& state) const;  ///< [prestressed owned node][3]
+  /// What the next solution starts from: back in the imaged shape.
+  State rest(const State& loaded) const;
+
+  Problem& problem_;
+  const PrestressSettings& settings_;
+  const mesh::DistributedMesh& mesh_;
+  const Follow& follow_;
+  State start_;                    ///< undeformed
+  std::vector<char> prestressed_;  ///< [owned node]
+  PrestressResult result_;
+};
+
+void FixedPoint::find_prestressed_nodes() {
+  prestressed_.assign(static_cast<std::size_t>(mesh_.nodes()), 0);
+  std::vector<std::string> left = settings_.exclude;
+  std::string names;
+  for (const auto& region : mesh_.regions) {
+    if (region.kind != mesh::RegionKind::wall) continue;
+    names += (names.empty() ? "" : ", ") + region.name;
+    std::erase(left, region.name);
+    if (excluded(region)) continue;
+    for (const auto& element : region.elements)
+      for (const auto node : element) prestressed_[static_cast<std::size_t>(node)] = 1;
+  }
+  if (!left.empty())
+    throw InputError("prestress.exclude", "the mesh has no wall region " + left.front(), "use one of: " + names);
+}
+
+void FixedPoint::find_largest_displacement(const State& state, PrestressRecord& record) const {
+  double largest = 0.0;
+  Vec3<double> place{};
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i) {
+    const double u = norm(vector_at(state.displacement.data(), i));
+    if (prestressed_[static_cast<std::size_t>(i)] && u > largest) largest = u, place = mesh_.points[i];
+  }
+  record.displacement = parallel::global_max(mesh_.comm, largest);
+  const std::int64_t rank = parallel::rank(mesh_.comm), ranks = parallel::size(mesh_.comm);
+  const bool here = parallel::global_min(mesh_.comm, largest == record.displacement ? rank : ranks) == rank;
+  double x[3] = {};
+  for (int c = 0; c < 3 && here; ++c) x[c] = place[c];
+  parallel::global_sum(mesh_.comm, x);
+  record.place = {{x[0], x[1], x[2]}};
+}
+
+std::vector<double> FixedPoint::displacements(const State& state) const {
+  std::vector<double> u;
+  for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i)
+    for (std::size_t c = 0; c < 3 && prestressed_[static_cast<std::size_t>(i)]; ++c)
+      u.push_back(state.displacement[at(i) + c]);
+  return u;
+}
+
+std::optional<State> FixedPoint::solve(double load, double relaxation) {
+  State loaded = result_.state;
+  const StepReport report = problem_.solve_static(loaded, load);
+  PrestressRecord& record = result_.history.emplace_back();
+  record.iteration = static_cast<int>(result_.history.size());
+  record.load = load;
+  record.relaxation = relaxation;
+  record.newton = static_cast<int>(report.iterations.size());
+  record.linear = report.linear_iterations();
+  record.seconds = report.timings.total;
+  record.displacement = std::numeric_limits<double>::quiet_NaN();
+  if (report.converged) find_largest_displacement(loaded, record);
+  result_.failure = report.failure;
+  follow_(record);
+  if (!report.converged) return std::nullopt;
+  return loaded;
+}
+
+bool FixedPoint::ramp(int steps) {
+  result_.prestress = without_prestress(mesh_, settings_.method);
+  result_.state = start_;
+  problem_.set_prestress(result_.prestress);
+  for (int k = 1; k < steps; ++k) {
+    const auto loaded = solve(static_cast<double>(k) / steps, k == 1 ? 0.0 : 1.0);
+    if (!loaded) return false;
+    set(flat(updated(*loaded)));
+    result_.state = rest(*loaded);
+  }
+  return true;
+}
+
+std::optional<State> FixedPoint::first_solution() {
+  for (int steps = settings_.load_steps; steps <= most_load_steps; steps *= 2)
+    if (ramp(steps))
+      if (auto loaded = solve(1.0, steps == 1 ? 0.0 : 1.0)) return loaded;
+  return std::nullopt;
+}
+
+// (5.3) to (5.5). `loaded` is in equilibrium with the present prestress.
+WallPrestress FixedPoint::updated(const State& loaded) const {
+  WallPrestress next = result_.prestress;
+  const WallModel& model = problem_.wall_model();
+  for (std::size_t r = 0; r < mesh_.regions.size(); ++r) {
+    const auto& region = mesh_.regions[r];
+    if (region.kind != mesh::RegionKind::wall || excluded(region)) continue;
+    for (std::size_t e = 0; e < region.elements.size(); ++e) {
+      const Mat3<double> F = motion_gradient(mesh_, loaded, region.elements[e]);
+      if (settings_.method == Method::stretch) {
+        Mat3<double> F0;
+        for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = next.values[r][9 * e + static_cast<std::size_t>(k)];
+        F0 = F * F0;
+        for (int k = 0; k < 9; ++k) next.values[r][9 * e + static_cast<std::size_t>(k)] = F0(k / 3, k % 3);
+        continue;
+      }
+      const auto element = static_cast<std::int32_t>(e);
+      const auto sigma = cauchy_stress(model, r, element, wall_element(mesh_, model, loaded, r, element));
+      const Mat3<double> P = wall::full(sigma) * transpose(adjugate(F));  // J sigma F^-T
+      const Mat3<double> S = settings_.update == Update::first_piola ? P : inverse(F) * P;
+      for (int n = 0; n < wall::voigt_size; ++n) {
+        const int i = wall::voigt_row[n], j = wall::voigt_column[n];
+        next.values[r][wall::voigt_size * e + static_cast<std::size_t>(n)] = 0.5 * (S(i, j) + S(j, i));
+      }
+    }
+  }
+  return next;
+}
+
+State FixedPoint::rest(const State& loaded) const {
+  State state = loaded;
+  std::fill(state.displacement.begin(), state.displacement.end(), 0.0);
+  if (settings_.method == Method::stress)
+    std::fill(state.velocity_pressure.begin(), state.velocity_pressure.end(), 0.0);
+  state.residual_reference = 0.0;
+  return state;
+}
+
+void FixedPoint::set(const std::vector<double>& values) {
+  auto value = values.begin();
+  for (auto& region : result_.prestress.values)
+    for (double& component : region) component = *value++;
+  problem_.set_prestress(result_.prestress);
+}
+
+PrestressResult FixedPoint::run() {
+  double relaxation = settings_.relaxation, last = std::numeric_limits<double>::infinity();
+  std::vector<double> x, g;  // prestress that was solved with last, and its update
+  Anderson anderson(mesh_.comm, memory);
+  auto loaded = first_solution();
+  if (!loaded) return std::move(result_);
+  for (int k = 1;; ++k) {
+    const double displacement = result_.history.back().displacement;
+    if (displacement <= settings_.tolerance) {
+      result_.state = rest(*loaded);
+      result_.converged = true;
+      return std::move(result_);
+    }
+    if (k == settings_.max_iterations) break;
+    if (displacement < growth * last) {  // false for NaN
+      last = displacement;
+      x = flat(result_.prestress);
+      g = flat(updated(*loaded));
+      for (std::size_t i = 0; i < g.size(); ++i) g[i] -= x[i];
+      result_.state = rest(*loaded);
+      if (k > 1) relaxation = std::min(settings_.relaxation, 2 * relaxation);
+      set(anderson.next(x, g, displacements(*loaded), relaxation));
+    } else {  // back to the last point, from which a smaller step is made
+      relaxation *= 0.5;
+      if (relaxation < least_relaxation) break;
+      anderson.forget();
+      std::vector<double> nearer = x;
+      for (std::size_t i = 0; i < x.size(); ++i) nearer[i] += relaxation * g[i];
+      set(nearer);
+    }
+    loaded = solve(1.0, relaxation);
+  }
+  result_.failure = fmt::format("after {} iterations the largest displacement is {:.3e} m, allowed are {:.3e} m{}",
+                                result_.history.size(), last, settings_.tolerance,
+                                result_.failure.empty() ? "" : "; the last solution failed: " + result_.failure);
+  return std::move(result_);
+}
+
+}  // namespace
+
+config::Schema<PrestressSettings> PrestressSettings::schema() {
+  using namespace config;
+  return Schema<PrestressSettings>("prestress", "Fixed point for the prestress of the imaged wall.")
+      .choice("method", &PrestressSettings::method, {{"stress", Method::stress}, {"stretch", Method::stretch}},
+              "stress: S0 is added to the stress of the law; stretch: the law sees the imaged shape as stretched, so "
+              "that fibres are recruited in it")
+      .by_default()
+      .choice("update", &PrestressSettings::update,
+              {{"first_piola", Update::first_piola}, {"second_piola", Update::second_piola}},
+              "Method stress: the symmetric part of the first Piola-Kirchhoff stress of the loaded wall becomes S0, or "
+              "its second one (Hsu & Bazilevs 2011)")
+      .by_default()
+      .texts("exclude", &PrestressSettings::exclude, "Wall regions that stay free of prestress, such as the flap")
+      .by_default()
+      .quantity("tolerance", &PrestressSettings::tolerance, dimension::length, above(0),
+                "Largest displacement of the prestressed wall under its load")
+      .by_default()
+      .plausible("1e-6 mm", "0.1 mm")
+      .integer("max_iterations", &PrestressSettings::max_iterations, range(1, 10000), "Of the fixed point")
+      .by_default()
+      .number("relaxation", &PrestressSettings::relaxation, range(0.01, 1),
+              "Share of an update that is taken; halved by itself where the displacement grows")
+      .by_default()
+      .integer("load_steps", &PrestressSettings::load_steps, range(1, 256),
+               "Equal steps in which the load grows, with an update after each; doubled by itself where that fails")
+      .by_default();
+}
+
+PrestressResult find_prestress(Problem& problem, const PrestressSettings& settings, double load_time,
+                               const std::function<void(const PrestressRecord&)>& follow) {
+  return FixedPoint(problem, settings, load_time, follow).run();
+}
+
+}  // namespace tunica::coupling

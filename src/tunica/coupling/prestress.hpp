@@ -1,0 +1,58 @@
+// Prestress of an imaged wall by a fixed point (docs/theory.md, section 5): which stress, or which stretch, does the
+// wall have in the imaged shape if that shape is in equilibrium with its loads?
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tunica/config/schema.hpp"
+#include "tunica/coupling/problem.hpp"
+
+namespace tunica::coupling {
+
+struct PrestressSettings {
+  enum class Method {
+    stress,  ///< additive, (5.1)
+    stretch  ///< multiplicative, (5.2)
+  };
+  /// What the stress of a loaded wall becomes in the imaged shape, (5.4); additive method only.
+  enum class Update { first_piola, second_piola };
+
+  Method method = Method::stress;
+  Update update = Update::first_piola;
+  std::vector<std::string> exclude{};  ///< wall regions that stay free of prestress
+  double tolerance = 1e-6;             ///< largest displacement under the load [m]
+  int max_iterations = 60;
+  double relaxation = 1.0;  ///< share of an update that is taken
+  int load_steps = 1;       ///< in which the load grows, with an update after each; doubled where that fails
+
+  static config::Schema<PrestressSettings> schema();
+};
+
+/// One iteration of the fixed point.
+struct PrestressRecord {
+  int iteration = 0;           ///< from 1
+  double displacement = 0;     ///< largest |u| under the load of nodes of prestressed elements [m]; NaN when unsolved
+  Vec3<double> place{};        ///< where, in the imaged shape [m]
+  double relaxation = 0;       ///< of the update before it; 0 in the first
+  double load = 0;             ///< share of the load
+  int newton = 0, linear = 0;  ///< iterations
+  double seconds = 0;
+};
+
+struct PrestressResult {
+  bool converged = false;
+  std::string failure;  ///< why not
+  WallPrestress prestress;
+  State state;  ///< imaged shape under the load: u = 0, and the pressure of the wall, which additive prestress contains
+  std::vector<PrestressRecord> history;
+};
+
+/// Fixed point for the wall of `problem`, which has no flow, under its loads at time `load_time` [s] and its nodal
+/// forces. Leaves the problem with the prestress found. Throws InputError for an excluded region that is not in the
+/// wall. Collective.
+PrestressResult find_prestress(Problem& problem, const PrestressSettings& settings, double load_time,
+                               const std::function<void(const PrestressRecord&)>& follow);
+
+}  // namespace tunica::coupling

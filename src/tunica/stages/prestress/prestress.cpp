@@ -1,0 +1,470 @@
+#include "tunica/stages/prestress/prestress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tunica/base/error.hpp"
+#include "tunica/bc/check.hpp"
+#include "tunica/config/units.hpp"
+#include "tunica/coupling/nodal.hpp"
+#include "tunica/mesh/series_file.hpp"
+#include "tunica/mesh/submesh.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/gather.hpp"
+#include "tunica/parallel/progress.hpp"
+#include "tunica/stages/checkpoint.hpp"
+#include "tunica/stages/fields.hpp"
+#include "tunica/stages/histories.hpp"
+#include "tunica/stages/load_mesh.hpp"
+#include "tunica/stages/plot.hpp"
+#include "tunica/stages/prestress/prestress_file.hpp"
+#include "tunica/stages/prestress/steady_flow.hpp"
+#include "tunica/stages/problem_input.hpp"
+#include "tunica/wall/surface.hpp"
+
+namespace tunica::stages {
+
+namespace {
+
+namespace fs = std::filesystem;
+using coupling::at;
+using mesh::RegionKind;
+using nlohmann::ordered_json;
+
+constexpr const char* report_file = "prestress.json";
+
+parallel::NodeOrder node_order(const mesh::DistributedMesh& mesh) {
+  return {mesh.comm, std::span(mesh.original_ids).first(static_cast<std::size_t>(mesh.owned_nodes)), mesh.global_nodes};
+}
+
+/// Number of each node of the whole mesh in a part, -1 outside.
+std::vector<std::int64_t> numbers_in(const mesh::Submesh& part, std::size_t nodes) {
+  std::vector<std::int64_t> number(nodes, -1);
+  for (std::size_t k = 0; k < part.nodes.size(); ++k)
+    number[static_cast<std::size_t>(part.nodes[k])] = static_cast<std::int64_t>(k);
+  return number;
+}
+
+std::vector<std::string> faces_of(const mesh::MeshData& data) {
+  std::vector<std::string> names;
+  for (const auto& face : data.faces) names.push_back(face.name);
+  return names;
+}
+
+/// The flow of a case alone, between rigid walls, with steady conditions.
+Case flow_case(const Case& c, const FaceConditions& conditions) {
+  Case flow = c;
+  flow.analysis = RigidFlow{};
+  flow.wall.reset();
+  flow.mesh_motion.reset();
+  flow.meshes.interface.reset();
+  flow.boundary = conditions;
+  flow.time->rho_infinity = 0.0;  // towards a steady state everything may be damped
+  return flow;
+}
+
+/// The wall of a case alone, in equilibrium with its loads.
+Case wall_case(const Case& c, const std::vector<std::string>& wall_faces) {
+  Case wall = c;
+  wall.analysis = StaticWall{};
+  wall.fluid.reset();
+  wall.mesh_motion.reset();
+  wall.meshes.interface.reset();
+  std::erase_if(wall.boundary, [&](const auto& condition) {
+    return std::find(wall_faces.begin(), wall_faces.end(), condition.first) == wall_faces.end();
+  });
+  return wall;
+}
+
+/// A wall that inertia holds in a run may be loose in statics.
+void check_support(const Case& wall, const std::vector<std::string>& wall_faces,
+                   const std::vector<std::string>& interface_faces) {
+  bc::BoundaryCase boundary;
+  boundary.conditions = wall.boundary;
+  boundary.static_wall = true;
+  for (const auto& face : wall_faces) boundary.faces.push_back({face, bc::Field::wall});
+  for (const auto& face : interface_faces) boundary.conditions.emplace_back(face, bc::Free{});
+  auto problems = bc::check_boundary(boundary);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+/// One `tunica prestress`. Its member functions are collective.
+class PrestressRun {
+ public:
+  PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen);
+  void steps();
+
+ private:
+  void read();
+  void prepare_folder();
+  void find_flow();
+  void take_steps_of_flow(coupling::Problem& problem);
+  void write_flow(const coupling::Problem& problem, const Case& flow);
+  void take_forces(const coupling::Problem& problem);
+  void find_wall();
+  coupling::ProblemInput wall_input();
+  /// What is left of the flow's forces once the pressure has its part [N], [local node][4].
+  std::vector<double> forces_beside_pressure() const;
+  void write_traction(const coupling::Problem& problem);
+  void follow(const coupling::PrestressRecord& record);
+  void plot_history(const std::vector<coupling::PrestressRecord>& history);
+  void write_prestress_file(const coupling::WallPrestress& prestress);
+  void write_stress(const coupling::Problem& problem, const coupling::State& state);
+  void write_start(const coupling::State& wall);
+  void write_report(const coupling::PrestressResult& result);
+
+  const PrestressCase& settings() const { return *case_.prestress; }
+  double per_si(const std::string& unit, const config::Dimension& dimension) const {
+    return 1 / config::unit_factor(unit, dimension);
+  }
+  mesh::ResultsOptions results_in(const char* folder) const {
+    mesh::ResultsOptions options{.directory = folder_ / folder};
+    options.length_factor = per_si(case_.output.units.length, config::dimension::length);
+    return options;
+  }
+
+  MPI_Comm comm_;
+  const PrestressRequest& request_;
+  std::string text_;
+  Case case_;
+  fs::path folder_;
+  std::optional<parallel::Log> log_;
+  double started_ = MPI_Wtime();
+
+  CheckedMesh whole_;  ///< rank 0
+  std::uint64_t mesh_hash_ = 0, lumen_hash_ = 0;
+  mesh::Submesh lumen_part_, wall_part_;  ///< rank 0
+  std::vector<std::string> wall_faces_, lumen_faces_, lumen_interface_, wall_interface_;
+
+  mesh::DistributedMesh lumen_, wall_;
+  coupling::State flow_;
+  SteadyRecord steady_;
+  std::vector<double> forces_;        ///< of the flow [N], and its pressure [Pa]; rank 0, [wall node in file order][4]
+  std::vector<double> local_forces_;  ///< forces_ at the local nodes
+  std::optional<CsvTable> history_;   ///< rank 0
+};
+
+PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen)
+    : comm_(comm), request_(request) {
+  read();
+  folder_ = request.directory.value_or(settings().output);
+  prepare_folder();
+  log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "prestress.log", .screen = screen});
+  if (!case_.title.empty()) log_->info(case_.title);
+  for (const auto& line : whole_.report) log_->info(line);
+  for (const auto& line : whole_.warnings) log_->warning(line);
+}
+
+// The prestress and the state that the case may name for its run are not read: this makes them.
+void PrestressRun::read() {
+  parallel::on_root(comm_, [&] {
+    text_ = config::read_text(request_.case_file);
+    auto parsed = read_case(request_.case_file);
+    case_ = std::move(parsed.value);
+    for (const auto& warning : parsed.warnings) whole_.warnings.push_back(format(warning));
+    if (!case_.prestress)
+      throw InputError(request_.case_file.string(), "has no section `prestress`",
+                       case_.solves_fluid() ? "add `prestress: {flow: {pressure: 80 mmHg, inflow: 80 ml/s}}`"
+                                            : "add `prestress: {}`");
+    if (case_.wall) case_.wall->prestress.reset();
+    auto warnings = std::move(whole_.warnings);
+    whole_ = load_mesh(case_);
+    whole_.warnings.insert(whole_.warnings.begin(), warnings.begin(), warnings.end());
+    mesh_hash_ = mesh_hash(whole_.data);
+    lumen_part_ = mesh::submesh(whole_.data, RegionKind::lumen);
+    wall_part_ = mesh::submesh(whole_.data, RegionKind::wall);
+    lumen_hash_ = mesh_hash(lumen_part_.data);
+    lumen_faces_ = faces_of(lumen_part_.data);
+    wall_faces_ = faces_of(wall_part_.data);
+  });
+  parallel::broadcast(comm_, text_);
+  if (parallel::rank(comm_) != 0) case_ = parse_case(text_, request_.case_file);
+  if (case_.wall) case_.wall->prestress.reset();
+  parallel::broadcast(comm_, mesh_hash_);
+  parallel::broadcast(comm_, lumen_hash_);
+  parallel::broadcast(comm_, lumen_faces_);
+  parallel::broadcast(comm_, wall_faces_);
+  if (case_.meshes.interface) {
+    lumen_interface_ = case_.meshes.interface->lumen_faces;
+    wall_interface_ = case_.meshes.interface->wall_faces;
+  }
+  check_support(wall_case(case_, wall_faces_), wall_faces_, wall_interface_);
+}
+
+void PrestressRun::prepare_folder() {
+  parallel::on_root(comm_, [&] {
+    if (!request_.overwrite && !request_.keep_flow && fs::exists(folder_ / "prestress.log"))
+      throw InputError(folder_.string(), "holds a prestress already",
+                       "replace it by --overwrite, find it anew with the flow that is there by --keep-flow, or name "
+                       "another folder by --output");
+    if (request_.keep_flow && !fs::exists(folder_ / "flow.checkpoint"))
+      throw InputError(folder_.string(), "holds no flow.checkpoint that could be kept", "leave out --keep-flow");
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error)
+      throw InputError(folder_.string(), fmt::format("cannot be made ({})", error.message()),
+                       "name a folder that can be created and written");
+    for (const char* file : {"prestress.log", report_file, "wall.vtu", "start.checkpoint"}) fs::remove(folder_ / file);
+  });
+}
+
+void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
+  SteadyFlow flow = *settings().flow;
+  const fs::path file = folder_ / "flow.checkpoint";
+  if (request_.keep_flow) {
+    flow_ = read_checkpoint(file, lumen_, flow_, lumen_hash_).state;
+    flow.steps = 1;  // for the forces, which belong to a step
+  }
+  std::optional<parallel::Progress> bar;
+  bar.emplace(*log_, "steady flow", 0.0, flow.steps);
+  steady_ = step_to_steady_state(problem, flow_, flow, [&](const SteadyRecord& r) {
+    bar->update(r.step,
+                fmt::format("velocity changes by {:.1e}, pressure by {:.1e}", r.velocity_change, r.pressure_change));
+  });
+  bar.reset();
+  const auto& units = case_.output.units;
+  log_->info(fmt::format(
+      "steady flow: {} steps to t = {:.4g} s, velocity up to {:.4g} {}, pressure up to {:.4g} {}; in the last step "
+      "they changed by {:.1e} and {:.1e}",
+      steady_.step, steady_.time, steady_.largest_velocity * per_si(units.velocity, config::dimension::velocity),
+      units.velocity, steady_.largest_pressure * per_si(units.pressure, config::dimension::pressure), units.pressure,
+      steady_.velocity_change, steady_.pressure_change));
+  if (const double change = std::max(steady_.velocity_change, steady_.pressure_change); change > flow.tolerance)
+    log_->warning(
+        fmt::format("the flow is not steady: asked were changes of {:.1e} in a step. The prestress belongs "
+                    "to its last instant",
+                    flow.tolerance));
+  write_checkpoint(file, lumen_, {flow_, {}, 0, lumen_hash_});
+}
+
+void PrestressRun::write_flow(const coupling::Problem& problem, const Case& flow) {
+  OutputFields fields(problem, flow);
+  mesh::ResultsWriter writer(lumen_, results_in("flow"));
+  fields.write(writer, steady_.step, steady_.time, flow_);
+}
+
+// From the lumen's node to the wall's node at the same place.
+void PrestressRun::take_forces(const coupling::Problem& problem) {
+  std::vector<double> forces = forces_on_wall(problem);
+  for (std::size_t k = 3; k < forces.size(); k += 4) forces[k] = flow_.velocity_pressure[k];
+  const auto of_lumen = parallel::gather_by_original_id(node_order(lumen_), forces, 4);
+  parallel::on_root(comm_, [&] {
+    const auto lumen = numbers_in(lumen_part_, whole_.data.points.size()),
+               wall = numbers_in(wall_part_, whole_.data.points.size());
+    forces_.assign(4 * wall_part_.nodes.size(), 0.0);
+    for (const auto& [wall_node, lumen_node] : whole_.data.twins)
+      for (std::size_t c = 0; c < 4; ++c)
+        forces_[4 * static_cast<std::size_t>(wall[static_cast<std::size_t>(wall_node)]) + c] =
+            of_lumen[4 * static_cast<std::size_t>(lumen[static_cast<std::size_t>(lumen_node)]) + c];
+  });
+}
+
+void PrestressRun::find_flow() {
+  const auto conditions = steady_conditions(case_.boundary, lumen_faces_, lumen_interface_, settings().flow.value());
+  const Case flow = flow_case(case_, conditions);
+  lumen_ = mesh::distribute(lumen_part_.data, comm_);
+  coupling::Problem problem(lumen_, problem_input(flow));
+  parallel::on_root(
+      comm_, [&] { mesh::write_atomically(folder_ / "boundary.yaml", conditions_text(conditions, lumen_interface_)); });
+  flow_ = problem.initial_state();
+  take_steps_of_flow(problem);
+  write_flow(problem, flow);
+  take_forces(problem);
+}
+
+// Pressure acts along the normal of the moved wall, and so does nearly all of the flow's forces. Were they held in
+// their directions, a flap between two lumens would tip over under the pair of pressures, (5.3).
+coupling::ProblemInput PrestressRun::wall_input() {
+  auto input = problem_input(wall_case(case_, wall_faces_));
+  local_forces_.assign(at(wall_.nodes()), 0.0);
+  if (!case_.solves_fluid()) return input;
+  parallel::scatter_by_original_id(node_order(wall_), forces_, local_forces_, 4);
+  wall_.halo.update(local_forces_, 4);
+  std::vector<double> pressure(static_cast<std::size_t>(wall_.nodes()));
+  for (std::size_t k = 0; k < pressure.size(); ++k) pressure[k] = local_forces_[4 * k + 3];
+  for (const auto& face : wall_interface_) input.boundary.wall_pressures.emplace_back(face, pressure);
+  return input;
+}
+
+std::vector<double> PrestressRun::forces_beside_pressure() const {
+  std::vector<double> forces = local_forces_;
+  for (const auto& name : wall_interface_)
+    for (const auto& t : wall_.face(name).triangles) {
+      const auto& x = wall_.points;
+      const Vec3<double> corners[3] = {x[t[0]], x[t[1]], x[t[2]]};
+      wall::SurfaceVector<double> r{};
+      wall::add_pressure(
+          corners, (local_forces_[at(t[0]) + 3] + local_forces_[at(t[1]) + 3] + local_forces_[at(t[2]) + 3]) / 3.0, r);
+      for (int a = 0; a < 3; ++a)
+        for (std::size_t c = 0; c < 3; ++c) forces[at(t[static_cast<std::size_t>(a)]) + c] += r.r[a][c];
+    }
+  wall_.halo.update(forces, 4);
+  return forces;
+}
+
+// Force over area at a node, for the eye.
+void PrestressRun::write_traction(const coupling::Problem& problem) {
+  std::vector<double> area(static_cast<std::size_t>(wall_.nodes()), 0.0);
+  for (const auto& face : wall_.faces) {
+    if (std::find(wall_interface_.begin(), wall_interface_.end(), face.name) == wall_interface_.end()) continue;
+    for (const auto& t : face.triangles) {
+      const auto& x = wall_.points;
+      const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6.0;
+      for (const auto node : t) area[static_cast<std::size_t>(node)] += third;
+    }
+  }
+  wall_.halo.update(area, 1);
+  std::vector<double> traction(local_forces_.size(), 0.0);
+  for (std::size_t k = 0; k < traction.size(); ++k)
+    if (area[k / 4] > 0) traction[k] = local_forces_[k] / area[k / 4];
+  const std::string unit = case_.output.units.stress;
+  const mesh::NodalArray array{.name = fmt::format("traction [{}]", unit),
+                               .components = 3,
+                               .values = traction,
+                               .stride = 4,
+                               .factor = per_si(unit, config::dimension::pressure)};
+  mesh::ResultsWriter writer(problem.mesh(), results_in("traction"));
+  writer.write(0, 0.0, std::span(&array, 1), {});
+}
+
+void PrestressRun::follow(const coupling::PrestressRecord& r) {
+  const std::string unit = case_.output.units.length;
+  const double displacement = r.displacement * per_si(unit, config::dimension::length);
+  const Vec3<double> place = per_si(unit, config::dimension::length) * r.place;
+  log_->info(fmt::format(
+      "iteration {}: {:.3e} {} near ({:.4g}, {:.4g}, {:.4g}); {:.3g} of the update, load {:.3g}, newton {}, "
+      "linear {}, {:.2f} s",
+      r.iteration, displacement, unit, place[0], place[1], place[2], r.relaxation, r.load, r.newton, r.linear,
+      r.seconds));
+  parallel::on_root(comm_, [&] {
+    history_->append(r.iteration, std::array{displacement, r.relaxation, r.load, static_cast<double>(r.newton),
+                                             static_cast<double>(r.linear), r.seconds});
+  });
+}
+
+void PrestressRun::plot_history(const std::vector<coupling::PrestressRecord>& history) {
+  const std::string unit = case_.output.units.length;
+  const double factor = per_si(unit, config::dimension::length);
+  Series displacement{.name = "largest displacement", .x = {}, .y = {}, .markers = true},
+      asked{.name = "asked", .x = {}, .y = {}, .dashed = true};
+  for (const auto& r : history) {
+    displacement.x.push_back(r.iteration), displacement.y.push_back(factor * r.displacement);
+    asked.x.push_back(r.iteration), asked.y.push_back(factor * settings().fixed_point.tolerance);
+  }
+  parallel::on_root(comm_, [&] {
+    write_plot((folder_ / "fixed_point.svg").string(), {displacement, asked},
+               {.title = "Fixed point of the prestress",
+                .x_label = "iteration",
+                .y_label = fmt::format("displacement under the load [{}]", unit),
+                .log_y = true});
+  });
+}
+
+void PrestressRun::write_prestress_file(const coupling::WallPrestress& prestress) {
+  const int n = wall::components(prestress.kind);
+  std::vector<std::int64_t> ids;
+  std::vector<double> values;
+  for (std::size_t r = 0; r < wall_.regions.size(); ++r) {
+    const auto owned = static_cast<std::ptrdiff_t>(wall_.regions[r].owned_elements);
+    ids.insert(ids.end(), wall_.regions[r].element_ids.begin(), wall_.regions[r].element_ids.begin() + owned);
+    values.insert(values.end(), prestress.values[r].begin(), prestress.values[r].begin() + n * owned);
+  }
+  const auto all = parallel::gather_by_original_id({comm_, ids, wall_.global_elements}, values, n);
+  parallel::on_root(comm_, [&] { write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
+}
+
+void PrestressRun::write_stress(const coupling::Problem& problem, const coupling::State& state) {
+  OutputFields fields(problem, wall_case(case_, wall_faces_));
+  mesh::ResultsWriter writer(wall_, results_in("wall"));
+  fields.write(writer, 0, 0.0, state);
+}
+
+void PrestressRun::write_start(const coupling::State& wall) {
+  const auto of_wall = parallel::gather_by_original_id(node_order(wall_), wall.velocity_pressure, 4);
+  std::vector<double> of_lumen, all;
+  if (case_.solves_fluid()) of_lumen = parallel::gather_by_original_id(node_order(lumen_), flow_.velocity_pressure, 4);
+  parallel::on_root(comm_, [&] {
+    all.assign(4 * whole_.data.points.size(), 0.0);
+    for (std::size_t k = 0; k < wall_part_.nodes.size(); ++k)
+      all[4 * static_cast<std::size_t>(wall_part_.nodes[k]) + 3] = of_wall[4 * k + 3];
+    for (std::size_t k = 0; k < lumen_part_.nodes.size(); ++k)
+      for (std::size_t c = 0; c < 4; ++c)
+        all[4 * static_cast<std::size_t>(lumen_part_.nodes[k]) + c] = of_lumen[4 * k + c];
+  });
+  const auto mesh = mesh::distribute(whole_.data, comm_);
+  Checkpoint start;
+  start.mesh_hash = mesh_hash_;
+  for (auto* field : {&start.state.velocity_pressure, &start.state.acceleration, &start.state.displacement,
+                      &start.state.displacement_rate})
+    field->assign(at(mesh.nodes()), 0.0);
+  parallel::scatter_by_original_id(node_order(mesh), all, start.state.velocity_pressure, 4);
+  mesh.halo.update(start.state.velocity_pressure, 4);
+  start.state.outlets = flow_.outlets;
+  write_checkpoint(folder_ / "start.checkpoint", mesh, start);
+}
+
+void PrestressRun::write_report(const coupling::PrestressResult& result) {
+  ordered_json json;
+  json["program"] = {{"version", request_.program.version}, {"commit", request_.program.commit}};
+  json["case_file"] = request_.case_file.string();
+  json["case"] = text_;
+  json["mesh_hash"] = mesh_hash_;
+  json["converged"] = result.converged;
+  if (!result.converged) json["failure"] = result.failure;
+  json["iterations"] = result.history.size();
+  json["largest displacement [m]"] = result.history.empty() ? 0.0 : result.history.back().displacement;
+  if (case_.solves_fluid())
+    json["steady flow"] = {{"steps", steady_.step},
+                           {"time [s]", steady_.time},
+                           {"change of velocity in the last step", steady_.velocity_change},
+                           {"change of pressure in the last step", steady_.pressure_change}};
+  json["seconds"] = MPI_Wtime() - started_;
+  parallel::on_root(comm_, [&] { mesh::write_atomically(folder_ / report_file, json.dump(2) + "\n"); });
+}
+
+void PrestressRun::find_wall() {
+  wall_ = mesh::distribute(wall_part_.data, comm_);
+  coupling::Problem problem(wall_, wall_input());
+  for (const auto& line : problem.wall_model().notes()) log_->info(line);
+  if (case_.solves_fluid()) {
+    problem.set_nodal_forces(forces_beside_pressure());
+    write_traction(problem);
+  }
+  parallel::on_root(comm_, [&] {
+    history_.emplace(folder_ / "fixed_point.csv",
+                     std::vector<std::string>{fmt::format("largest displacement [{}]", case_.output.units.length),
+                                              "share of the update", "share of the load", "newton iterations",
+                                              "linear iterations", "seconds"},
+                     std::nullopt);
+  });
+  const auto result = coupling::find_prestress(problem, settings().fixed_point, settings().load_time,
+                                               [&](const auto& record) { follow(record); });
+  plot_history(result.history);
+  write_report(result);
+  if (!result.converged)
+    throw SolverError(fmt::format(
+        "the fixed point of the prestress did not converge: {}\n  flow and traction are in {}; --keep-flow goes on "
+        "with them\n  try a smaller `relaxation`, more `load_steps`, or another `method`",
+        result.failure, folder_.string()));
+  write_prestress_file(result.prestress);
+  write_stress(problem, result.state);
+  write_start(result.state);
+}
+
+void PrestressRun::steps() {
+  if (case_.solves_fluid()) find_flow();
+  find_wall();
+  log_->info(fmt::format("prestress found in {:.1f} s. For the case:\n  wall: {{prestress: {}}}\n  start: {}",
+                         MPI_Wtime() - started_, (folder_ / "wall.vtu").string(),
+                         (folder_ / "start.checkpoint").string()));
+}
+
+}  // namespace
+
+void prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen) {
+  PrestressRun(comm, request, screen).steps();
+}
+
+}  // namespace tunica::stages

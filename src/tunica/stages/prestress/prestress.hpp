@@ -1,0 +1,36 @@
+// `tunica prestress`: the prestress of an imaged vessel under its diastolic load (docs/theory.md, section 5).
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "tunica/stages/manifest.hpp"
+
+namespace tunica::stages {
+
+struct PrestressRequest {
+  std::filesystem::path case_file;
+  std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
+  bool overwrite = false;                          ///< results in the folder may be replaced
+  bool keep_flow = false;                          ///< the steady flow in the folder is taken as it is
+  ProgramVersion program;
+};
+
+/// Finds the prestress of the wall and writes into the folder of results:
+/// - flow.checkpoint, flow/: the steady flow between rigid walls, before anything is done with the wall; boundary.yaml,
+///   its conditions;
+/// - traction/: its traction on the wall;
+/// - fixed_point.csv, fixed_point.svg: how the fixed point converged, line by line;
+/// - wall.vtu: the prestress, for the key `wall.prestress` (prestress_file.hpp); wall/: stress in the imaged shape;
+/// - start.checkpoint: the state of flow and wall, for the key `start`;
+/// - prestress.json: what was done and found, prestress.log.
+/// The wall has the loads that the case gives it, and where the case has flow, its traction.
+///
+/// Throws InputError with all problems of case and meshes before anything is written; SolverError when flow or fixed
+/// point do not converge, with everything until then on disk. The same on all ranks. Collective.
+void prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen);
+
+}  // namespace tunica::stages
