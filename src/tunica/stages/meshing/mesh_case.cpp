@@ -44,7 +44,6 @@ FillSettings fill_settings(double edge) {
   return settings;
 }
 
-
 WallLayers find_layers(const Tetrahedra& mesh, const std::vector<Opening>& openings) {
   auto faces = sort_surface(mesh, openings);
   faces.interface.insert(faces.interface.end(), faces.outer.begin(), faces.outer.end());
@@ -79,6 +78,9 @@ Schema<MeshCase> MeshCase::schema() {
       .integer("elements_through_wall", &MeshCase::elements_through_wall, config::range(1, 4),
                "Elements that wall and flap are thick, at least")
       .by_default()
+      .section("boundary_layers", &MeshCase::boundary_layers, BoundaryLayers::schema(),
+               "Thin layers at the wall of the lumen; `{}` for three, none when left out")
+      .optional()
       .path("output", &MeshCase::output, "Folder of the mesh, relative to that of this file")
       .by_default("mesh");
 }
@@ -114,6 +116,12 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
     improve(mesh, project, {.keep_layers = true}, tell);
   }
 
+  if (mesh_case.boundary_layers) {
+    phases.begin("boundary layers");
+    const auto made = add_boundary_layers(mesh, *mesh_case.boundary_layers);
+    tell(fmt::format("{:.2f} to {:.2f} mm thick, median {:.2f} mm", 1e3 * made.smallest, 1e3 * made.largest,
+                     1e3 * made.median));
+  }
   phases.begin("regions and faces");
   const auto faces = sort_surface(mesh, openings);
   const auto regions = wall_regions(mesh, faces, openings, geometry.roles);

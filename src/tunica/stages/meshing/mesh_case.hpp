@@ -7,6 +7,7 @@
 
 #include "tunica/config/schema.hpp"
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/meshing/boundary_layers.hpp"
 #include "tunica/stages/meshing/geometry.hpp"
 #include "tunica/stages/phases.hpp"
 
@@ -25,6 +26,7 @@ struct MeshCase {
   Geometry geometry;
   Size size = Medium{};
   int elements_through_wall = 1;
+  std::optional<BoundaryLayers> boundary_layers;
   std::filesystem::path output;
 
   static config::Schema<MeshCase> schema();
