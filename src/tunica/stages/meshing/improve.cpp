@@ -37,8 +37,8 @@ std::array<Point, 14> make_directions() {
 class Smoother {
  public:
   /// `enough`: a star whose worst sine is above it is left alone.
-  Smoother(LocalMesh& mesh, const Projection& project, double enough, double deviation)
-      : mesh_(mesh), project_(project), enough_(enough), deviation_(deviation) {}
+  Smoother(LocalMesh& mesh, const Projection& project, double enough, const ImproveOptions& options)
+      : mesh_(mesh), project_(project), enough_(enough), options_(options) {}
 
   /// Looks for a better place of the node: a pattern search from where it is, with steps that get smaller.
   bool smooth(Node n, bool keep_surface) {
@@ -72,7 +72,7 @@ class Smoother {
       }
     }
     if (best <= first + 1e-4) return false;
-    const double allowed = on_surface ? std::max(deviation_, deviation(n)) : 0;
+    const double allowed = on_surface ? std::max(1.0, deviation(n)) : 0;
     mesh_.move(n, at);
     if (on_surface && deviation(n) > allowed) {
       mesh_.move(n, start);
@@ -82,7 +82,7 @@ class Smoother {
   }
 
  private:
-  /// Largest distance of the middles of the surface triangles at `n` from the surface over their longest edge.
+  /// Largest distance of the middles of the surface triangles at `n` from the surface over what is allowed there.
   double deviation(Node n) const {
     const auto [from, to] = mesh_.sides(n);
     double largest = 0;
@@ -92,7 +92,8 @@ class Smoother {
       const Point normal = cross(b - a, c - a), middle = (1.0 / 3) * (a + b + c);
       Point on = middle;
       if (!project_(on, (1 / norm(normal)) * normal, from, to, longest)) return 1e300;
-      largest = std::max(largest, norm(on - middle) / longest);
+      largest =
+          std::max(largest, norm(on - middle) / std::min(options_.deviation * longest, options_.largest_deviation));
     }
     return largest;
   }
@@ -118,7 +119,8 @@ class Smoother {
 
   LocalMesh& mesh_;
   const Projection& project_;
-  double enough_, deviation_;
+  double enough_;
+  const ImproveOptions& options_;
   std::array<Point, 14> directions_ = make_directions();
 };
 
@@ -141,7 +143,7 @@ Improvement improve(Tetrahedra& mesh, const Projection& project, const ImproveOp
   Improvement done;
   const double wanted = std::sin(options.wanted_dihedral * std::numbers::pi / 180);
   const double free_surface = std::sin(options.free_surface * std::numbers::pi / 180);
-  Smoother smoother(local, project, 1.1 * wanted, options.deviation);
+  Smoother smoother(local, project, 1.1 * wanted, options);
   std::size_t before = 0;
   for (; done.passes < options.most_passes; ++done.passes) {
     const auto bad = worse_than(local, wanted);

@@ -15,7 +15,9 @@ using Projection = std::function<bool(Point& p, const Point& normal, int from, i
 struct ImproveOptions {
   double wanted_dihedral = 15;  ///< elements with a smaller (or larger than 180 - this) angle are worked on [degrees]
   double free_surface = 10;     ///< surfaces are changed only for elements with a smaller angle [degrees]
-  double deviation = 0.1;       ///< of surface triangles from the surface over their longest edge, where nodes move
+  /// Where nodes move, middles of surface triangles stay as near to the surface as they were, or nearer than this share
+  /// of their longest edge and this distance [m].
+  double deviation = 0.1, largest_deviation = 0.2e-3;
   int most_passes = 8;
   bool keep_layers = false;  ///< make no edge from one side of the wall to the other
 };
