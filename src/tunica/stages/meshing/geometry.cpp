@@ -37,8 +37,10 @@ Schema<VesselRoles> roles_schema() {
 
 GeometrySurfaces from(const ParametricDissection& shape, const ComplexOptions& options) {
   options.log("surfaces of the idealised dissection");
-  // The surfaces need to be finer than the mesh, but not much.
-  const double spacing = std::clamp(0.35 * options.sizes.largest, 0.6 * mm, 0.9 * mm);
+  // The surfaces need to be finer than the mesh, but not much; the thinnest sheets and roundest rims have to be seen.
+  const double thinnest = std::min(shape.flap.thickness, shape.flap.false_lumen_wall_thickness);
+  const double spacing = std::clamp(
+      std::min({0.35 * options.sizes.largest, 0.55 * thinnest, 1.1 * shape.flap.rim_fillet}), 0.45 * mm, 0.9 * mm);
   VesselRoles roles;
   roles.inlet = "inlet";
   if (!shape.iliacs) roles.aorta_ends = {"abdominal_aorta"};

@@ -96,7 +96,7 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
   const double edge = edge_length(mesh_case.size);
   options.sizes = size_settings(edge);
   // Improving shapes takes a little of the 0.5 mm that are allowed in the end.
-  options.accuracy.absolute = 0.4e-3;
+  options.accuracy.absolute = 0.45e-3;
   options.log = tell;
   options.spots = mesh_case.output / "problems.vtp";
   phases.begin("surfaces");
