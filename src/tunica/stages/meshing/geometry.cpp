@@ -54,14 +54,18 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) 
     append(result.surfaces.lumen, read_surface(files.false_lumen, unit));
     result.lumen_parts = 2;
   }
-  if (!files.openings.empty()) result.surfaces.names = read_opening_names(files.openings, unit);
+  if (!files.openings.empty()) {
+    result.surfaces.names = read_opening_names(files.openings, unit);
+    check_names(files.roles, result.surfaces.names);
+  }
   if (!files.outer_wall.empty()) {
     result.surfaces.outer = read_surface(files.outer_wall, unit);
     return result;
   }
   auto growing = options;
   growing.lumen_parts = result.lumen_parts;
-  result.surfaces = with_grown_wall(result.surfaces.lumen, result.surfaces.names, files.wall, files.roles, growing);
+  result.surfaces = with_grown_wall(result.surfaces.lumen, result.surfaces.names, files.wall.value_or(GrowthSettings{}),
+                                    files.roles, growing);
   return result;
 }
 
@@ -86,8 +90,13 @@ Schema<SurfaceFiles> SurfaceFiles::schema() {
             "the inlet, and the others are called outlet_1, outlet_2, ... by falling area")
       .optional()
       .include(&F::roles, roles_schema())
-      .section("wall", &F::wall, GrowthSettings::schema(), "How the wall is grown, if there is no `outer_wall`")
-      .by_default();
+      .section("wall", &F::wall, GrowthSettings::schema(),
+               "How the wall is grown around the lumen; by the defaults when neither this nor `outer_wall` is given")
+      .optional()
+      .check([](const F& files, config::Problems& problems) {
+        if (files.wall && !files.outer_wall.empty())
+          problems.add("wall", "says how a wall is grown, but `outer_wall` gives it", "leave one of them out");
+      });
 }
 
 Schema<Geometry> geometry_schema() {

@@ -17,7 +17,7 @@ struct SurfaceFiles {
   std::filesystem::path lumen, false_lumen, outer_wall, openings;  ///< all but the first may be empty
   double metres_per_unit = 0;
   VesselRoles roles;
-  GrowthSettings wall;  ///< for the wall that is grown when there is no outer one
+  std::optional<GrowthSettings> wall;  ///< for the wall that is grown when there is no outer one
 
   static config::Schema<SurfaceFiles> schema();
 };

@@ -44,8 +44,7 @@ FillSettings fill_settings(double edge) {
   return settings;
 }
 
-WallLayers find_layers(const Tetrahedra& mesh, const std::vector<Opening>& openings) {
-  auto faces = sort_surface(mesh, openings);
+WallLayers find_layers(const Tetrahedra& mesh, SurfaceFaces faces) {
   faces.interface.insert(faces.interface.end(), faces.outer.begin(), faces.outer.end());
   return wall_layers(mesh, faces.interface);
 }
@@ -114,7 +113,7 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
   improve(mesh, project, {}, tell);
   if (mesh_case.elements_through_wall > 1) {
     phases.begin("layers");
-    tell(fmt::format("{} nodes added", double_layers(mesh, find_layers(mesh, openings).bridges)));
+    tell(fmt::format("{} nodes added", double_layers(mesh, find_layers(mesh, sort_surface(mesh, openings)).bridges)));
     improve(mesh, project, {.keep_layers = true}, tell);
   }
 
@@ -130,7 +129,7 @@ MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say) {
   auto data = assemble(mesh, openings, faces, regions);
   phases.begin("report");
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);
-  const auto layers = find_layers(mesh, openings);
+  const auto layers = find_layers(mesh, faces);
   const auto tears = find_tears(mesh, regions.side);
   phases.end();
   const auto report = mesh_report({data, layers, fidelity, prepared.thickness, tears, phases.seconds, peak_memory()});

@@ -76,6 +76,19 @@ void log_complex(const SurfaceComplex& complex, const Log& log) {
                   1e6 * volume(complex, Label::wall)));
 }
 
+/// A wrong unit is found out here: meshing metres as millimetres would fill the memory first.
+void check_scale(const std::vector<Opening>& openings) {
+  double area = 0;
+  for (const auto& o : openings) area = std::max(area, o.area);
+  constexpr double smallest = 1e-3, largest = 100e-3;  // m
+  const double radius = std::sqrt(area / M_PI);
+  if (radius < smallest || radius > largest)
+    throw InputError("lumen surface",
+                     fmt::format("its largest opening has a radius of {:.3g} mm; expected are {:g} to {:g} mm",
+                                 1e3 * radius, 1e3 * smallest, 1e3 * largest),
+                     "check `length_unit`");
+}
+
 /// No sheet is coarser than the other one allows at a distance.
 void agree_on_sizes(std::vector<Sheet>& sheets, const SizeSettings& settings) {
   if (sheets.size() < 2) return;
@@ -142,6 +155,7 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
     check_nesting(lumen, *outer, options.clearance, options.spots);
   }
   const auto openings = find_openings(lumen, outer ? &*outer : nullptr, surfaces.names);
+  check_scale(openings);
   for (const auto& o : openings)
     options.log(fmt::format("opening {}: {:.1f} mm^2, rims flattened by at most {:.2f} mm", o.name, 1e6 * o.area,
                             1e3 * o.out_of_plane));

@@ -21,13 +21,13 @@ struct Tetrahedra {
   std::vector<bool> on_curve;                  ///< nodes on lines where more than two labels meet, which stay in place
 };
 
-/// Nodes of a face in the order of mesh::tetrahedron_faces, counter-clockwise from outside_label.
+/// Nodes of a face in the order of mesh::tetrahedron_faces, counter-clockwise from outside.
 std::array<Index, 3> face_nodes(const Tetrahedra& mesh, Index element, int face);
 
-/// Triangles between two labels, or a label and the outside_label (0).
+/// Triangles between two labels, or a label and the outside (0).
 struct LabelledTriangle {
-  std::array<Index, 3> nodes;  ///< counter-clockwise seen from outside_label `element`
-  Index element, neighbour;    ///< of the smaller and the larger label; outside_label is a neighbour of -1
+  std::array<Index, 3> nodes;  ///< counter-clockwise seen from outside `element`
+  Index element, neighbour;    ///< of the smaller and the larger label; outside is a neighbour of -1
   int label, neighbour_label;  ///< label < neighbour_label, or neighbour_label = 0
 };
 std::vector<LabelledTriangle> surface_triangles(const Tetrahedra& mesh);

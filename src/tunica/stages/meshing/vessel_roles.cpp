@@ -8,24 +8,33 @@
 
 namespace tunica::stages::meshing {
 
-std::vector<Opening> with_inlet_first(std::vector<Opening> openings, const VesselRoles& roles) {
-  const auto find = [&](const std::string& name) {
-    return std::find_if(openings.begin(), openings.end(), [&](const Opening& o) { return o.name == name; });
-  };
+namespace {
+
+template <class Named>
+void check(const VesselRoles& roles, const std::vector<Named>& openings) {
   std::vector<Problem> problems;
-  const auto check = [&](const std::string& key, const std::string& name) {
-    if (find(name) != openings.end()) return;
+  const auto look_up = [&](const std::string& key, const std::string& name) {
+    const auto is_it = [&](const Named& o) { return o.name == name; };
+    if (std::any_of(openings.begin(), openings.end(), is_it)) return;
     std::string names;
     for (const auto& o : openings) names += (names.empty() ? "" : ", ") + o.name;
     problems.push_back({key, fmt::format("there is no opening '{}'", name), "take one of " + names});
   };
-  if (!roles.inlet.empty()) check("inlet", roles.inlet);
-  for (const auto& name : roles.aorta_ends) check("aorta_ends", name);
+  if (!roles.inlet.empty()) look_up("inlet", roles.inlet);
+  for (const auto& name : roles.aorta_ends) look_up("aorta_ends", name);
   if (!problems.empty()) throw InputError(std::move(problems));
-  if (!roles.inlet.empty()) {
-    const auto found = find(roles.inlet);
-    std::rotate(openings.begin(), found, found + 1);
-  }
+}
+
+}  // namespace
+
+void check_names(const VesselRoles& roles, const std::vector<NamedPlace>& names) { check(roles, names); }
+
+std::vector<Opening> with_inlet_first(std::vector<Opening> openings, const VesselRoles& roles) {
+  check(roles, openings);
+  if (roles.inlet.empty()) return openings;
+  const auto found =
+      std::find_if(openings.begin(), openings.end(), [&](const Opening& o) { return o.name == roles.inlet; });
+  std::rotate(openings.begin(), found, found + 1);
   return openings;
 }
 

@@ -14,6 +14,9 @@ struct VesselRoles {
   std::vector<Point> true_lumen, false_lumen;  ///< places known to lie there [m]; when empty, the inlet does
 };
 
+/// Throws InputError for names that are not among `names`: early, where a table names the openings.
+void check_names(const VesselRoles& roles, const std::vector<NamedPlace>& names);
+
 /// The openings with the inlet first. Throws InputError for names that no opening has.
 std::vector<Opening> with_inlet_first(std::vector<Opening> openings, const VesselRoles& roles);
 
