@@ -6,6 +6,7 @@
 #include "tunica/stages/meshing/caps.hpp"
 #include "tunica/stages/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/surface_file.hpp"
+#include "tunica/stages/meshing/surface_mending.hpp"
 
 namespace tunica::stages::meshing {
 namespace {
@@ -59,6 +60,30 @@ TEST(PatientComplex, ClosesAndLabelsATubeWithWall) {
   EXPECT_NEAR(prepared.sizes({{5e-3, 0, 10e-3}}), 1e-3, 0.1e-3);
   EXPECT_NEAR(prepared.sizes({{6e-3, 0, 10e-3}}), 1.3e-3, 0.1e-3);  // what the lumen allows at 1 mm
   EXPECT_GT(lines.size(), 5u);
+}
+
+TEST(PatientComplex, AWrongUnitIsAnError) {
+  auto surfaces = two_tubes();
+  for (auto* surface : {&surfaces.lumen, &*surfaces.outer})
+    for (auto& p : surface->points) p = 1e3 * p;
+  surfaces.names.clear();
+  EXPECT_TRUE(says(message_of<InputError>([&] { patient_complex(surfaces, {}); }), "length_unit"));
+}
+
+TEST(VesselRoles, NamesThatNoOpeningHasAreErrors) {
+  const std::vector<NamedPlace> names = {{"in", {{0, 0, 0}}}, {"out", {{0, 0, 20e-3}}}};
+  VesselRoles roles;
+  roles.inlet = "out";
+  EXPECT_NO_THROW(check_names(roles, names));
+  roles.aorta_ends = {"abdominal_aorta"};
+  EXPECT_TRUE(says(message_of<InputError>([&] { check_names(roles, names); }), "in, out"));
+}
+
+TEST(CheckNesting, WritesPlacesWhereNoFolderIsYet) {
+  const Folder folder;
+  const auto tubes = two_tubes();
+  EXPECT_THROW(check_nesting(*tubes.outer, tubes.lumen, 0.1e-3, folder.path / "mesh" / "problems.vtp"), InputError);
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "mesh" / "problems.vtp"));
 }
 
 TEST(PatientComplex, WithoutAWall) {

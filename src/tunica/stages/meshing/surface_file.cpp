@@ -166,9 +166,6 @@ void write_spots(const std::vector<Spot>& spots, const std::filesystem::path& pa
   data->SetPoints(vtk_points(places));
   data->SetVerts(cells);
   data->GetPointData()->AddArray(strings("kind", kinds));
-  // Usually the folder of a result that will not be; if it cannot be made, writing says so.
-  std::error_code ignored;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   write(data, path);
 }
 

@@ -30,6 +30,9 @@ class Complaints {
   void throw_any() {
     if (problems_.empty()) return;
     if (!file_.empty()) {
+      // Usually in the folder of a mesh that will not be; if it cannot be made, writing says so.
+      std::error_code ignored;
+      if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), ignored);
       write_spots(spots_, file_);
       problems_.back().remedy += fmt::format(" (all places are in {})", file_.string());
     }
