@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "file_command.hpp"
 #include "tunica/stages/load_mesh.hpp"
 
 namespace tunica::app {
@@ -11,7 +12,7 @@ namespace {
 
 void check(const std::filesystem::path& file) {
   const auto parsed = stages::read_case(file);
-  for (const Problem& warning : parsed.warnings) std::printf("warning: %s\n", format(warning).c_str());
+  print_warnings(parsed.warnings);
   const auto mesh = stages::load_mesh(parsed.value);
   for (const auto& line : mesh.report) std::printf("%s\n", line.c_str());
   for (const auto& warning : mesh.warnings) std::printf("warning: %s\n", warning.c_str());

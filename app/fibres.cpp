@@ -4,9 +4,9 @@
 #include <mpi.h>
 
 #include <cstdio>
-#include <memory>
 
 #include "commands.hpp"
+#include "file_command.hpp"
 #include "session.hpp"
 #include "tunica/parallel/message.hpp"
 
@@ -32,19 +32,15 @@ void add_fibres(CLI::App& app) {
       "Examples:\n  tunica fibres fibres.yaml\n  mpirun -n 2 tunica fibres fibres.yaml\n"
       "Writes wall/ (with e1, e2, e3, m4, m6, jump, confidence in every element), lumen/, meshes.yaml (what goes into "
       "the\ncase file) and report.json. Reference of the file: tunica schema --fibres");
-  const auto file = std::make_shared<std::string>(), output = std::make_shared<std::string>();
-  const auto overwrite = std::make_shared<bool>(false);
-  command->add_option("file", *file, "The mesh, its faces, the angles of the fibres")->required();
-  command->add_option("-o,--output", *output, "Folder of the result, instead of the one that the file names");
-  command->add_flag("--overwrite", *overwrite, "Replace a result that is there");
-  command->callback([=] {
-    stages::fibres::FibresRequest request{.file = *file, .overwrite = *overwrite};
-    if (!output->empty()) request.output = *output;
-    throw CLI::RuntimeError(in_session([&] {
-      fibres(request);
-      return 0;
-    }));
-  });
+  add_file_arguments(*command,
+                     {.file = "The mesh, its faces, the angles of the fibres",
+                      .output = "Folder of the result, instead of the one that the file names",
+                      .overwrite = "Replace a result that is there"},
+                     [](const FileRequest& given) {
+                       stages::fibres::FibresRequest request{.file = given.file, .overwrite = given.overwrite};
+                       if (!given.output.empty()) request.output = given.output;
+                       throw CLI::RuntimeError(in_session([&] { return fibres(request), 0; }));
+                     });
 }
 
 }  // namespace tunica::app

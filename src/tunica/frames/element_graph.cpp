@@ -179,9 +179,7 @@ std::map<std::int64_t, std::int32_t> ElementGraph::number_ghosts(std::vector<std
 
 Vec3<double> ElementGraph::area_vector(std::int32_t e, int side) const {
   const auto& corner = mesh::tetrahedron_faces[side];
-  const auto &a = mesh_.points[nodes_[e][corner[0]]], &b = mesh_.points[nodes_[e][corner[1]]],
-             &c = mesh_.points[nodes_[e][corner[2]]];
-  return 0.5 * cross(b - a, c - a);
+  return mesh::area_vector(mesh_.points, std::array{nodes_[e][corner[0]], nodes_[e][corner[1]], nodes_[e][corner[2]]});
 }
 
 }  // namespace tunica::frames

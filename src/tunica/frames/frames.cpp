@@ -6,6 +6,7 @@
 
 #include "tunica/frames/averaging.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/element_shape.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -70,10 +71,8 @@ class Outlets {
 
   double area(const mesh::Face& face) const {
     double sum = 0;
-    for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
-      const auto& [a, b, c] = face.triangles[t];
-      sum += 0.5 * norm(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]));
-    }
+    for (std::int32_t t = 0; t < face.owned_triangles; ++t)
+      sum += norm(mesh::area_vector(mesh_.points, face.triangles[t]));
     return sum;
   }
 

@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/frames/averaging.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::frames {
@@ -98,7 +99,7 @@ std::array<std::vector<double>, 6> dyad_loads(const mesh::DistributedMesh& mesh,
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (!inner[f]) continue;
     for (const auto& t : mesh.faces[f].triangles) {
-      const auto area = 0.5 * cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+      const auto area = mesh::area_vector(mesh.points, t);
       const auto share = dyad(area, 1 / (3 * norm(area)));
       for (const auto node : t)
         for (int i = 0; i < 6 && node < mesh.owned_nodes; ++i) loads[i][node] += share[i];

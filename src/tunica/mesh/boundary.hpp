@@ -56,4 +56,16 @@ Vec3<double> centroid(const std::vector<Vec3<double>>& points, const std::array<
   return (1.0 / N) * c;
 }
 
+/// Normal of a triangle times its area [m^2].
+template <class Node>
+Vec3<double> area_vector(const std::vector<Vec3<double>>& points, const std::array<Node, 3>& t) {
+  return 0.5 * cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
+}
+
+/// Volume of a tetrahedron [m^3], negative when inverted.
+inline double volume(const std::vector<Vec3<double>>& points, const std::array<std::int64_t, 4>& t) {
+  const auto& a = points[t[0]];
+  return dot(points[t[1]] - a, cross(points[t[2]] - a, points[t[3]] - a)) / 6;
+}
+
 }  // namespace tunica::mesh

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tunica/base/error.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/stages/meshing/local_mesh.hpp"
 
 namespace tunica::stages::meshing {
@@ -40,8 +41,7 @@ Vec3<double> within(const Vec3<double>& normal, const Vec3<double>& v) {
 void face_all_triangles(const Tetrahedra& mesh, const std::vector<Vec3<double>>& cap, Interface& interface) {
   std::vector<std::vector<Vec3<double>>> around(interface.nodes.size());
   for (const auto& t : interface.triangles) {
-    const Point& a = mesh.points[t[0]];
-    auto inward = cross(mesh.points[t[2]] - a, mesh.points[t[1]] - a);
+    auto inward = -1.0 * mesh::area_vector(mesh.points, t);
     unify(inward);
     for (const auto n : t) around[interface.position[n]].push_back(inward);
   }
@@ -64,8 +64,7 @@ Interface find_interface(const Tetrahedra& mesh) {
   std::vector<Vec3<double>> normal(mesh.points.size(), {{0, 0, 0}}), cap(mesh.points.size(), {{0, 0, 0}});
   for (const auto& t : surface_triangles(mesh)) {
     if (t.label != lumen_label) continue;
-    const Point& a = mesh.points[t.nodes[0]];
-    const auto area = cross(mesh.points[t.nodes[1]] - a, mesh.points[t.nodes[2]] - a);
+    const auto area = mesh::area_vector(mesh.points, t.nodes);
     const bool interface = t.neighbour_label == wall_label;
     for (const auto n : t.nodes) (interface ? normal : cap)[n] = (interface ? normal : cap)[n] + area;
     if (!interface) continue;
@@ -110,9 +109,7 @@ class Levels {
   double prism_volume(const Nodes& t, int level) const {
     double height = 0;
     for (const auto n : t) height += thickness[interface_.position[n]] / 3;
-    const Point& a = mesh_.points[t[0]];
-    return 0.5 * norm(cross(mesh_.points[t[1]] - a, mesh_.points[t[2]] - a)) * height *
-           (shares_[level] - (level > 0 ? shares_[level - 1] : 0));
+    return norm(mesh::area_vector(mesh_.points, t)) * height * (shares_[level] - (level > 0 ? shares_[level - 1] : 0));
   }
   std::vector<double> thickness;  ///< at each interface node [m]
 

@@ -74,7 +74,7 @@ Schema<MeshCase> MeshCase::schema() {
       .section("geometry", &MeshCase::geometry, geometry_schema(), "What is meshed")
       .section("size", &MeshCase::size, size_schema(), "How fine")
       .by_default("medium")
-      .integer("elements_through_wall", &MeshCase::elements_through_wall, config::range(1, 4),
+      .integer("elements_through_wall", &MeshCase::elements_through_wall, config::range(1, 2),
                "Elements that wall and flap are thick, at least")
       .by_default()
       .section("boundary_layers", &MeshCase::boundary_layers, BoundaryLayers::schema(),

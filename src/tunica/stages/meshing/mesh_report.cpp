@@ -9,6 +9,7 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/quality.hpp"
 
 namespace tunica::stages::meshing {
@@ -25,7 +26,7 @@ Edge edge(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
 double area(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
   double sum = 0;
-  for (const auto& t : triangles) sum += 0.5 * norm(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  for (const auto& t : triangles) sum += norm(mesh::area_vector(points, t));
   return sum;
 }
 
@@ -47,11 +48,7 @@ nlohmann::json to_json(const Shapes& s) {
 
 double volume(const mesh::MeshData& data, const mesh::RegionData& region) {
   double sum = 0;
-  for (auto e = region.first_element; e < region.end_element; ++e) {
-    const auto& t = data.tetrahedra[e];
-    const Point& a = data.points[t[0]];
-    sum += dot(data.points[t[1]] - a, cross(data.points[t[2]] - a, data.points[t[3]] - a)) / 6;
-  }
+  for (auto e = region.first_element; e < region.end_element; ++e) sum += mesh::volume(data.points, data.tetrahedra[e]);
   return sum;
 }
 

@@ -97,7 +97,7 @@ std::vector<Tie> make_ties(const Tetrahedra& mesh, const std::vector<Passage>& p
   for (const auto& p : passages) {
     if (!p.to_lumen || p.length > thickest_flap) continue;
     const auto& n = p.from.nodes;
-    const double area = 0.5 * norm(cross(mesh.points[n[1]] - mesh.points[n[0]], mesh.points[n[2]] - mesh.points[n[0]]));
+    const double area = norm(mesh::area_vector(mesh.points, n));
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) ties.push_back({n[i], p.to[j], -area / 9 / p.length});
   }
@@ -245,11 +245,7 @@ class Flood {
  private:
   static constexpr double far = 1e300;
   Point middle(Index e) const { return centroid(mesh_.points, mesh_.elements[e]); }
-  double volume(Index e) const {
-    const auto& t = mesh_.elements[e];
-    const Point& a = mesh_.points[t[0]];
-    return dot(mesh_.points[t[1]] - a, cross(mesh_.points[t[2]] - a, mesh_.points[t[3]] - a)) / 6;
-  }
+  double volume(Index e) const { return mesh::volume(mesh_.points, mesh_.elements[e]); }
   const Tetrahedra& mesh_;
   const std::vector<std::array<Index, 4>>& adjacent_;
   std::vector<double> distance_;
@@ -257,8 +253,7 @@ class Flood {
 
 double area(const Tetrahedra& mesh, const Cap& cap) {
   double sum = 0;
-  for (const auto& n : cap.triangles)
-    sum += 0.5 * norm(cross(mesh.points[n[1]] - mesh.points[n[0]], mesh.points[n[2]] - mesh.points[n[0]]));
+  for (const auto& n : cap.triangles) sum += norm(mesh::area_vector(mesh.points, n));
   return sum;
 }
 

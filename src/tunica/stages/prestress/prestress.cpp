@@ -9,6 +9,7 @@
 #include "tunica/bc/check.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -310,8 +311,7 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
   for (const auto& face : wall_.faces) {
     if (std::find(wall_interface_.begin(), wall_interface_.end(), face.name) == wall_interface_.end()) continue;
     for (const auto& t : face.triangles) {
-      const auto& x = wall_.points;
-      const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6.0;
+      const double third = norm(mesh::area_vector(wall_.points, t)) / 3.0;
       for (const auto node : t) area[static_cast<std::size_t>(node)] += third;
     }
   }
