@@ -15,6 +15,7 @@ void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_prestress(CLI::App& app);
+void add_report(CLI::App& app);
 void add_run(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_verify(CLI::App& app);

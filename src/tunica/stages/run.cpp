@@ -428,6 +428,7 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
   });
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = parse_case(c.text, request.case_file);
+  name_faces(c.settings, c.mesh, comm);
   return run_case(c, request, comm, screen);
 }
 
