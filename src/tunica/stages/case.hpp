@@ -18,6 +18,7 @@
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
 #include "tunica/stages/prestress/settings.hpp"
+#include "tunica/stages/tuning/settings.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
@@ -100,10 +101,12 @@ struct Case {
   std::optional<fluid::Parameters> fluid;
   std::optional<wall::Parameters> wall;
   std::optional<ale::Parameters> mesh_motion;  ///< for fluid-structure interaction; always present there
-  std::vector<std::pair<std::string, bc::Condition>> boundary;  ///< face name, condition, as in the file
-  std::optional<coupling::TimeSettings> time;                   ///< all but static walls
-  std::optional<std::filesystem::path> start;                   ///< state to start from; else at rest
-  std::optional<PrestressCase> prestress;                       ///< what `tunica prestress` shall do
+  /// Face name, condition, as in the file; then the provisional outlets of the section `outlets`, which a run replaces.
+  std::vector<std::pair<std::string, bc::Condition>> boundary;
+  std::optional<coupling::TimeSettings> time;  ///< all but static walls
+  std::optional<std::filesystem::path> start;  ///< state to start from; else at rest
+  std::optional<PrestressCase> prestress;      ///< what `tunica prestress` shall do
+  std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;
