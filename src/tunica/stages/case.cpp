@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tunica/bc/waveform.hpp"
 
@@ -193,6 +194,7 @@ void check_case(const Case& c, Problems& problems) {
       {"fluid", c.solves_fluid(), c.fluid.has_value(), "add `fluid:`; with `{}` it has the usual values of blood"},
       {"wall", c.solves_wall(), c.wall.has_value(), "add `wall:` with density and material"},
       {"prestress", c.prestress && c.solves_wall(), c.prestress.has_value(), ""},
+      {"outlets", c.outlets && c.solves_fluid(), c.outlets.has_value(), ""},
       {"mesh_motion", coupled, coupled || c.mesh_motion.has_value(), ""},
       {"time", !static_wall, c.time.has_value(), "add `time: {step: 1 ms, steps: 100}`"},
       {"meshes.lumen", c.solves_fluid(), c.mesh ? c.solves_fluid() : c.meshes.has_lumen(), "give a mesh of the lumen"},
@@ -216,6 +218,11 @@ void check_case(const Case& c, Problems& problems) {
       problems.add("prestress.flow", fmt::format("is given, but `analysis: {}` has no flow", analysis),
                    "remove it: the loads on the wall are those of `boundary`");
   }
+  if (c.outlets)
+    for (const auto& [face, share] : c.outlets->fractions)
+      if (std::any_of(c.boundary.begin(), c.boundary.end(), [&](const auto& b) { return b.first == face; }))
+        problems.add("boundary." + face, "is an outlet of `outlets.fractions` as well",
+                     "remove it from one of them: tuned outlets have no entry in `boundary`");
   if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
 }
 
@@ -236,11 +243,23 @@ std::vector<Problem> check_waveforms(const Case& c) {
   return found;
 }
 
+/// The fractions add up to 1 exactly, and the outlets get conditions, so that whatever looks at the faces finds one on
+/// each.
+void place_outlets(Case& c, std::vector<Problem>& warnings) {
+  double sum = 0;
+  for (const auto& [face, share] : c.outlets->fractions) sum += share;
+  if (std::abs(sum - 1) > 1e-9)
+    warnings.push_back({"outlets.fractions", fmt::format("add up to {:.6g}", sum), "they are divided by that sum"});
+  for (auto& [face, share] : c.outlets->fractions) share /= sum;
+  for (auto& outlet : provisional_outlets(*c.outlets)) c.boundary.push_back(std::move(outlet));
+}
+
 config::Parsed<Case> parse(const std::string& yaml, const std::filesystem::path& file, bool check_files) {
   const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = check_files};
   config::Parsed<Case> parsed = config::parse_document(Case::schema(), case_document(yaml, file), origin);
   Case& c = parsed.value;
   if (c.solves_fluid() && c.solves_wall() && !c.mesh_motion) c.mesh_motion.emplace();
+  if (c.outlets) place_outlets(c, parsed.warnings);
   return parsed;
 }
 
@@ -329,6 +348,8 @@ Schema<Case> Case::schema() {
             "State that the run starts from: start.checkpoint of `tunica prestress`; at rest when left out")
       .section("prestress", &Case::prestress, PrestressCase::schema(), "What `tunica prestress` shall find, and how")
       .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
+      .section("outlets", &Case::outlets, TuningCase::schema(),
+               "Outlets by pressures and shares of the flow, which `tunica tune` finds")
       .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
       .by_default()
       .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")

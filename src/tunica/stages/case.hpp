@@ -22,6 +22,7 @@
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/prestress/settings.hpp"
 #include "tunica/stages/report/settings.hpp"
+#include "tunica/stages/tuning/settings.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
@@ -107,11 +108,13 @@ struct Case {
   std::optional<fluid::Parameters> fluid;
   std::optional<wall::Parameters> wall;
   std::optional<ale::Parameters> mesh_motion;  ///< for fluid-structure interaction; always present there
-  std::vector<std::pair<std::string, bc::Condition>> boundary;  ///< face name, condition, as in the file
-  std::optional<coupling::TimeSettings> time;                   ///< all but static walls
-  std::optional<std::filesystem::path> start;                   ///< state to start from; else at rest
-  std::optional<PrestressCase> prestress;                       ///< what `tunica prestress` shall do
-  std::optional<ReportSettings> report;                         ///< the page that is written last
+  /// Face name, condition, as in the file; then the provisional outlets of the section `outlets`, which a run replaces.
+  std::vector<std::pair<std::string, bc::Condition>> boundary;
+  std::optional<coupling::TimeSettings> time;  ///< all but static walls
+  std::optional<std::filesystem::path> start;  ///< state to start from; else at rest
+  std::optional<PrestressCase> prestress;      ///< what `tunica prestress` shall do
+  std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
+  std::optional<ReportSettings> report;        ///< the page that is written last
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;

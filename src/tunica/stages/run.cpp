@@ -22,6 +22,7 @@
 #include "tunica/stages/prestress/prestress_file.hpp"
 #include "tunica/stages/problem_input.hpp"
 #include "tunica/stages/step_grid.hpp"
+#include "tunica/stages/tuning/outlets_file.hpp"
 
 namespace tunica::stages {
 
@@ -32,14 +33,6 @@ namespace {
 
 constexpr int static_halvings = 6;
 constexpr std::size_t kept_checkpoints = 2;
-
-/// Of the text and of the prestress that it names. For rank 0.
-std::uint64_t case_hash(const ReadCase& c) {
-  Hash hash;
-  hash.add(c.text.data(), c.text.size());
-  if (const auto prestress = prestress_hash(c.mesh.data); prestress != 0) hash.add(&prestress, sizeof prestress);
-  return hash.value();
-}
 
 std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
@@ -222,8 +215,8 @@ void Run::restore() {
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
     log_->warning(
-        "the case file or its prestress has changed since the checkpoint was written; the run goes on with the new "
-        "one");
+        "the case file, its prestress or its tuned outlets have changed since the checkpoint was written; the run goes "
+        "on with the new ones");
 }
 
 void Run::open_outputs() {
@@ -398,11 +391,13 @@ RunOutcome Run::steps() {
   record(outcome.signal == 0 ? "completed" : "stopped",
          outcome.signal == 0 ? "" : fmt::format("signal {}", outcome.signal));
   if (outcome.signal != 0) {
-    log_->warning(fmt::format(
-        "stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  tunica run {}{} "
-        "--restart",
-        sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
-        request_.case_file.string(), request_.directory ? " --output " + request_.directory->string() : ""));
+    const std::string resume = request_.resume.empty()
+                                   ? fmt::format("tunica run {}{} --restart", request_.case_file.string(),
+                                                 request_.directory ? " --output " + request_.directory->string() : "")
+                                   : request_.resume;
+    log_->warning(fmt::format("stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  {}",
+                              sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
+                              resume));
   } else {
     log_->info(fmt::format("{} in {:.1f} s ({:.1f} s set-up), {:.0f} MB of memory; results in {}",
                            plural(grid_.steps_done(), "step"), progress_.total_seconds, progress_.set_up_seconds,
@@ -412,6 +407,14 @@ RunOutcome Run::steps() {
 }
 
 }  // namespace
+
+std::uint64_t case_hash(const ReadCase& c) {
+  Hash hash;
+  hash.add(c.text.data(), c.text.size());
+  hash.add(c.outlets.data(), c.outlets.size());
+  if (const auto prestress = prestress_hash(c.mesh.data); prestress != 0) hash.add(&prestress, sizeof prestress);
+  return hash.value();
+}
 
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
   return Run(c, request, comm, screen).steps();
@@ -429,6 +432,7 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = parse_case(c.text, request.case_file);
   name_faces(c.settings, c.mesh, comm);
+  c.outlets = take_tuned_outlets(comm, c.settings);
   return run_case(c, request, comm, screen);
 }
 
