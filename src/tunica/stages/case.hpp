@@ -17,6 +17,7 @@
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/post/settings.hpp"
 #include "tunica/stages/prestress/settings.hpp"
 #include "tunica/wall/parameters.hpp"
 
@@ -104,6 +105,7 @@ struct Case {
   std::optional<coupling::TimeSettings> time;                   ///< all but static walls
   std::optional<std::filesystem::path> start;                   ///< state to start from; else at rest
   std::optional<PrestressCase> prestress;                       ///< what `tunica prestress` shall do
+  std::optional<PostSettings> post;                             ///< what `tunica post` shall make of the results
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;
