@@ -20,7 +20,7 @@ void add_post(CLI::App& app) {
       "The section `post` of the case says which cycle and what of it:\n"
       "  post: {period: 0.78 s, spacing: 5 mm}\n"
       "Results: post.json, tables (.csv), plots (.svg), fields for ParaView (.vtp, .vtu), post.log.");
-  const auto request = std::make_shared<stages::PostRequest>();
+  const auto request = std::make_shared<stages::post::PostRequest>();
   const auto case_file = std::make_shared<std::string>(), results = std::make_shared<std::string>(),
              output = std::make_shared<std::string>();
   command->add_option("case", *case_file, "The case file")->required();
@@ -32,7 +32,8 @@ void add_post(CLI::App& app) {
     if (from->count() > 0) request->results = *results;
     if (to->count() > 0) request->output = *output;
     request->program = {version(), commit()};
-    throw CLI::RuntimeError(in_session([&] { return stages::post(MPI_COMM_WORLD, *request, stdout), 0; }));
+    throw CLI::RuntimeError(
+        in_session([&] { return stages::post::post_results(MPI_COMM_WORLD, *request, stdout), 0; }));
   });
 }
 

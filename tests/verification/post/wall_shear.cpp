@@ -23,9 +23,9 @@ nlohmann::json run_and_post(const test::SharedFolder& folder, const std::string&
   stages::RunRequest run;
   run.case_file = file;
   stages::run(MPI_COMM_WORLD, run, nullptr);
-  stages::PostRequest post;
+  stages::post::PostRequest post;
   post.case_file = file;
-  stages::post(MPI_COMM_WORLD, post, nullptr);
+  stages::post::post_results(MPI_COMM_WORLD, post, nullptr);
   std::ifstream report(folder.path() / "results/post/post.json");
   return nlohmann::json::parse(report);
 }

@@ -14,14 +14,11 @@
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 
-namespace tunica::stages {
+namespace tunica::stages::post {
 
 namespace {
 
 namespace fs = std::filesystem;
-using post::FieldFrame;
-using post::FieldSeries;
-
 constexpr const char* report_file = "post.json";
 
 /// The settings of a case without the section `post` are the defaults of the schema.
@@ -43,7 +40,7 @@ class FrameWindow {
   /// Of the nodes, from three frames; empty where nothing moves.
   std::vector<double> mesh_velocity(std::size_t frame) {
     if (!moves_) return {};
-    const auto d = post::derivative_at(series_.times(), frame);
+    const auto d = derivative_at(series_.times(), frame);
     std::vector<double> velocity(at(frame).displacement.size(), 0.0);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& u = at(d.first + i).displacement;
@@ -81,12 +78,12 @@ class Post {
   std::optional<FieldSeries> series_;
   std::vector<std::string> warnings_;
   std::vector<double> times_;  ///< of the frames in the window [s]
-  post::Window window_;
+  Window window_;
   std::optional<parallel::Log> log_;
-  post::Vessel vessel_;
-  std::optional<post::FrameFigures> frames_;
-  std::optional<post::FigureTable> figures_;
-  post::CycleFields fields_;
+  Vessel vessel_;
+  std::optional<FrameFigures> frames_;
+  std::optional<FigureTable> figures_;
+  CycleFields fields_;
 };
 
 Post::Post(MPI_Comm comm, const PostRequest& request, std::FILE* screen)
@@ -114,7 +111,7 @@ void Post::read() {
     data_ = load_meshes(case_.meshes, {}).data;
     series_.emplace(case_, data_, results_);
     auto warnings = std::vector<std::string>{};
-    window_ = post::choose_window(series_->times(), settings_, results_.string(), warnings);
+    window_ = choose_window(series_->times(), settings_, results_.string(), warnings);
     if (parallel::rank(comm_) == 0) warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
     const auto first = series_->times().begin() + static_cast<std::ptrdiff_t>(window_.first);
     times_.assign(first, first + static_cast<std::ptrdiff_t>(window_.count));
@@ -141,7 +138,7 @@ void Post::look_at_frames() {
   const auto ranks = static_cast<std::size_t>(parallel::size(comm_)),
              rank = static_cast<std::size_t>(parallel::rank(comm_));
   const std::size_t begin = times_.size() * rank / ranks, end = times_.size() * (rank + 1) / ranks;
-  const auto weights = post::trapezoid_weights(times_);
+  const auto weights = trapezoid_weights(times_);
   FrameWindow window(*series_, case_.solves_fluid() && case_.solves_wall());
   const auto start = parallel::agree(comm_, [&] { return series_->read(window_.first).displacement; });
   frames_.emplace(case_, settings_, data_, vessel_, series_->stresses(), start);
@@ -158,42 +155,42 @@ void Post::look_at_frames() {
     }
   });
   figures_->gather(comm_);
-  post::gather(comm_, fields_);
+  gather(comm_, fields_);
 }
 
 void Post::write() {
   parallel::on_root(comm_, [&] {
-    post::Findings findings{.program = request_.program,
-                            .case_file = request_.case_file,
-                            .results = results_,
-                            .title = case_.title,
-                            .settings = settings_,
-                            .data = data_,
-                            .vessel = vessel_,
-                            .window = window_,
-                            .times = times_,
-                            .figures = *figures_,
-                            .frames = *frames_,
-                            .fields = fields_,
-                            .openings = post::read_openings(results_, case_, vessel_, window_),
-                            .left_out = vessel_.left_out,
-                            .warnings = warnings_};
+    Findings findings{.program = request_.program,
+                      .case_file = request_.case_file,
+                      .results = results_,
+                      .title = case_.title,
+                      .settings = settings_,
+                      .data = data_,
+                      .vessel = vessel_,
+                      .window = window_,
+                      .times = times_,
+                      .figures = *figures_,
+                      .frames = *frames_,
+                      .fields = fields_,
+                      .openings = read_openings(results_, case_, vessel_, window_),
+                      .left_out = vessel_.left_out,
+                      .warnings = warnings_};
     if (!findings.has_flap())
       findings.left_out.push_back({"flap", fmt::format("the wall has no region {}", settings_.flap)});
     if (findings.frames.stresses().empty()) findings.left_out.push_back({"stress", "the analysis has no wall"});
-    auto report = post::report_json(findings);
+    auto report = report_json(findings);
     auto& files = report["files"] = nlohmann::ordered_json::array();
-    for (const auto& write : {post::write_tables, post::write_plots, post::write_fields})
+    for (const auto& write : {write_tables, write_plots, write_fields})
       for (const auto& file : write(findings, folder_)) files.push_back(file);
     report["seconds"] = MPI_Wtime() - started_;
     mesh::write_atomically(folder_ / report_file, report.dump(2) + "\n");
-    log_->info(post::report_text(report));
+    log_->info(report_text(report));
   });
   log_->info(fmt::format("{} files in {}", report_file, folder_.string()));
 }
 
 void Post::steps() {
-  vessel_ = post::make_vessel(case_, settings_, data_, comm_);
+  vessel_ = make_vessel(case_, settings_, data_, comm_);
   look_at_frames();
   write();
 }
@@ -206,6 +203,6 @@ fs::path post_folder(const Case& c, const PostRequest& request) {
   return request.results.value_or(c.output.directory) / "post";
 }
 
-void post(MPI_Comm comm, const PostRequest& request, std::FILE* screen) { Post(comm, request, screen).steps(); }
+void post_results(MPI_Comm comm, const PostRequest& request, std::FILE* screen) { Post(comm, request, screen).steps(); }
 
-}  // namespace tunica::stages
+}  // namespace tunica::stages::post

@@ -10,7 +10,7 @@
 #include "tunica/stages/case.hpp"
 #include "tunica/stages/manifest.hpp"
 
-namespace tunica::stages {
+namespace tunica::stages::post {
 
 struct PostRequest {
   std::filesystem::path case_file;
@@ -27,9 +27,9 @@ struct PostRequest {
 ///
 /// Throws InputError when there are no results, when they do not cover the window, lack a field or belong to another
 /// mesh. The same on all ranks. Collective.
-void post(MPI_Comm comm, const PostRequest& request, std::FILE* screen);
+void post_results(MPI_Comm comm, const PostRequest& request, std::FILE* screen);
 
 /// Where its files go.
 std::filesystem::path post_folder(const Case& c, const PostRequest& request);
 
-}  // namespace tunica::stages
+}  // namespace tunica::stages::post
