@@ -14,6 +14,7 @@ void add_material(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_plot(CLI::App& app);
+void add_post(CLI::App& app);
 void add_prestress(CLI::App& app);
 void add_report(CLI::App& app);
 void add_run(CLI::App& app);

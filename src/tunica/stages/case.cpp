@@ -347,9 +347,11 @@ Schema<Case> Case::schema() {
       .path("start", &Case::start,
             "State that the run starts from: start.checkpoint of `tunica prestress`; at rest when left out")
       .section("prestress", &Case::prestress, PrestressCase::schema(), "What `tunica prestress` shall find, and how")
-      .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
       .section("outlets", &Case::outlets, TuningCase::schema(),
                "Outlets by pressures and shares of the flow, which `tunica tune` finds")
+      .section("post", &Case::post, PostSettings::schema(),
+               "What `tunica post` makes of the results; with its defaults when left out")
+      .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
       .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
       .by_default()
       .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")

@@ -20,6 +20,7 @@
 #include "tunica/mesh/mesh_data.hpp"
 #include "tunica/stages/fibres/settings.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
+#include "tunica/stages/post/settings.hpp"
 #include "tunica/stages/prestress/settings.hpp"
 #include "tunica/stages/report/settings.hpp"
 #include "tunica/stages/tuning/settings.hpp"
@@ -114,6 +115,7 @@ struct Case {
   std::optional<std::filesystem::path> start;  ///< state to start from; else at rest
   std::optional<PrestressCase> prestress;      ///< what `tunica prestress` shall do
   std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
+  std::optional<PostSettings> post;            ///< what `tunica post` shall make of the results
   std::optional<ReportSettings> report;        ///< the page that is written last
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
