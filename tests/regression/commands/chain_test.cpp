@@ -31,7 +31,8 @@ class ChainCommand : public Program {
       "  lumen_outlet: {resistance: 5e8 Pa s/m^3}\n"
       "  \"wall_*\": fixed\n"
       "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
-      "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n";
+      "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n"
+      "post: {}\nreport: {pictures: false}\n";
 
   void write_case(const std::string& time, const std::string& output, const std::string& from = "",
                   const std::string& to = "") const {
@@ -60,15 +61,19 @@ class ChainCommand : public Program {
 };
 
 TEST_F(ChainCommand, ReusesWhatHasTheSameInputs) {
-  write_case("3", "directory: out");
+  write_case("3", "directory: out, every: 1");
   ASSERT_EQ(tunica("run case.yaml --dry-run"), 0) << printed();
-  expect_printed("1/3 fibres     would be done: never done");
+  expect_printed("1/5 fibres     would be done: never done");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   ASSERT_EQ(tunica("run case.yaml --until prestress"), 0) << printed();
   EXPECT_FALSE(fs::exists(folder_ / "out/run"));
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
-  expect_printed("=== stage 2/3: prestress (prestress of the imaged wall): reused");
+  expect_printed("=== stage 2/5: prestress (prestress of the imaged wall): reused");
   expect_printed("step 3/3");
+  const std::string page = read("out/report/report.html");
+  for (const char* text : {"<h1>Tube</h1>", "mean confidence", "TAWSS [Pa]", "iterations of the fixed point",
+                           "Tuned outlets: the case has no stage", "Pictures: not wanted"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
   const auto time = fs::last_write_time(folder_ / "out/run/faces.csv");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
   expect_printed("run         reused");
@@ -77,20 +82,20 @@ TEST_F(ChainCommand, ReusesWhatHasTheSameInputs) {
   // Another spelling, other units of results and a title concern no stage, or only the run.
   write_case("3", "directory: out, units: {pressure: kPa}", "radius: 5 mm", "radius: 0.5 cm");
   ASSERT_EQ(tunica("run case.yaml --dry-run"), 0) << printed();
-  expect_printed("2/3 prestress  fresh");
-  expect_printed("3/3 run        would be done: inputs changed: output.units.pressure");
+  expect_printed("2/5 prestress  fresh");
+  expect_printed("3/5 run        would be done: inputs changed: output.units.pressure");
   // The wall's law does: the steady flow is kept.
   write_case("3", "directory: out", "k1: 60 kPa", "k1: 70 kPa");
   ASSERT_EQ(tunica("run case.yaml --until prestress"), 0) << printed();
   expect_printed("inputs changed: wall.material.hgo.families[1].k1; it goes on with what is there");
   expect_printed("steady flow: 20 steps");
   ASSERT_EQ(tunica("run case.yaml --from run"), 0) << printed();
-  expect_printed("=== stage 3/3: run (the case itself): asked to be done anew");
+  expect_printed("=== stage 3/5: run (the case itself): asked to be done anew");
   // A fibre angle comes before both.
   write_case("3", "directory: out", "outer: wall_outer, mean_angle: 35", "outer: wall_outer, mean_angle: 30");
   ASSERT_EQ(tunica("run case.yaml --dry-run"), 0) << printed();
-  expect_printed("1/3 fibres     would be done: inputs changed: mean_angle");
-  expect_printed("3/3 run        would be done: fibres comes before it");
+  expect_printed("1/5 fibres     would be done: inputs changed: mean_angle");
+  expect_printed("3/5 run        would be done: fibres comes before it");
 }
 
 TEST_F(ChainCommand, MoreStepsGoOn) {
@@ -114,7 +119,7 @@ TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
   kill_when_there("out/run/checkpoints/step_00000004.checkpoint");
   EXPECT_EQ(nlohmann::json::parse(read("out/run/stage.json"))["status"], "running");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
-  expect_printed("=== stage 3/3: run (the case itself): it was interrupted");
+  expect_printed("=== stage 3/5: run (the case itself): it was interrupted");
   expect_printed("continuing from");
   expect_same("out/", "whole/",
               {"fibres/wall/mesh-complete.mesh.vtu", "prestress/wall.vtu", "prestress/start.checkpoint",
@@ -149,7 +154,7 @@ TEST_F(ChainCommand, WhatIsWrongIsToldBeforeAnyWork) {
   EXPECT_FALSE(fs::exists(folder_ / "results"));
   write_case("2", "directory: out");
   EXPECT_EQ(tunica("run case.yaml --until pestress"), 2);
-  expect_printed("its stages: fibres, prestress, run");
+  expect_printed("its stages: fibres, prestress, run, post, report");
   EXPECT_EQ(tunica("prestress case.yaml"), 2);
   expect_printed("fibres: is a stage to be done first");
 }

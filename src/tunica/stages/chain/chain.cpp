@@ -9,6 +9,7 @@
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/stages/chain/plan.hpp"
+#include "tunica/stages/face_patterns.hpp"
 
 namespace tunica::stages::chain {
 
@@ -47,6 +48,14 @@ void create_folder(const fs::path& folder) {
   if (error)
     throw InputError(folder.string(), fmt::format("the folder cannot be made ({})", error.message()),
                      "name one that can be created and written");
+}
+
+void remove_partial(const fs::path& folder, const Stage& stage) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder))
+    for (const auto& pattern : stage.partial)
+      if (matches(pattern, entry.path().filename().string())) found.push_back(entry.path());
+  for (const auto& path : found) fs::remove_all(path);
 }
 
 /// What all ranks know of the stage to come.
@@ -136,6 +145,7 @@ class ChainRun {
   std::string prepare(const Stage& stage) {
     const fs::path folder = folder_of(chain_, stage), file = folder / stage.file;
     create_folder(folder);
+    if (!plan_.resume) remove_partial(folder, stage);
     mesh::write_atomically(file, head_of(chain_, stage) + config::commented_yaml(plan_.document, *stage.description));
     record_ = {.stage = stage.name,
                .status = "running",

@@ -60,6 +60,9 @@ struct Stage {
   /// Files that it reads besides those that the document names; may be empty.
   std::function<std::vector<std::filesystem::path>(const Chain&)> reads;
 
+  /// What it goes on with, as patterns of names in its folder: removed before it begins anew, so that a later call
+  /// cannot take what belongs to other inputs.
+  std::vector<std::string> partial;
   /// Can it go on with what is there after such a change?
   std::function<bool(const Change&)> continues;
   /// Does it. Returns the signal that stopped it, 0: none. Collective.

@@ -14,9 +14,11 @@
 #include "tunica/stages/fibres/fibres_case.hpp"
 #include "tunica/stages/meshing/assemble.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
+#include "tunica/stages/post/post.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/report/report.hpp"
 #include "tunica/stages/run.hpp"
+#include "tunica/stages/tuning/tune.hpp"
 
 namespace tunica::stages::chain {
 
@@ -97,7 +99,7 @@ Document fibres_document(const Chain& chain, const fs::path& folder) {
 /// A case on the mesh that was made, without the sections of stages.
 Document computed_case(const Chain& chain, const fs::path& folder) {
   Document document = case_for(chain, folder);
-  for (const char* section : {"mesh", "fibres", "prestress", "report"}) document.remove(section);
+  for (const char* section : {"mesh", "fibres", "prestress", "post", "report"}) document.remove(section);
   document.set("meshes", meshes_for(chain, folder, true));
   return document;
 }
@@ -110,16 +112,47 @@ Document prestress_document(const Chain& chain, const fs::path& folder) {
   return document;
 }
 
-Document run_document(const Chain& chain, const fs::path& folder) {
+/// The prestress and the state that the case starts from, where the stage `prestress` has found them.
+void set_start(const Chain& chain, const fs::path& folder, Document& document) {
+  if (!chain.settings.prestress) return;
+  const fs::path found = folder_of(chain, stage("prestress"));
+  document.set("wall.prestress", path_to(found / "wall.vtu", folder));
+  document.set("start", path_to(found / "start.checkpoint", folder));
+}
+
+/// The outlets, where the stage `outlets` has found them.
+void set_outlets_file(const Chain& chain, const fs::path& folder, Document& document) {
+  const Stage& outlets = stage("outlets");
+  if (outlets.wanted(chain.settings))
+    document.set("outlets.file", path_to(folder_of(chain, outlets) / outlets.result, folder));
+}
+
+Document outlets_document(const Chain& chain, const fs::path& folder) {
   Document document = computed_case(chain, folder);
-  if (chain.settings.prestress) {
-    const fs::path found = folder_of(chain, stage("prestress"));
-    document.set("wall.prestress", path_to(found / "wall.vtu", folder));
-    document.set("start", path_to(found / "start.checkpoint", folder));
-  }
+  set_start(chain, folder, document);
+  document.set("outlets.output", ".");
   document.set("output.directory", ".");
   return document;
 }
+
+Document run_document(const Chain& chain, const fs::path& folder) {
+  Document document = computed_case(chain, folder);
+  set_start(chain, folder, document);
+  set_outlets_file(chain, folder, document);
+  document.set("output.directory", ".");
+  return document;
+}
+
+Document post_document(const Chain& chain, const fs::path& folder) {
+  Document document = run_document(chain, folder);
+  document.set("post", case_for(chain, folder).part("post"));
+  document.set("post.output", ".");
+  document.set("output.directory", path_to(folder_of(chain, stage("run")), folder));
+  return document;
+}
+
+/// The fields and histories of a run are as they are since this file was written.
+std::vector<fs::path> run_manifest(const Chain& chain) { return {folder_of(chain, stage("run")) / "manifest.json"}; }
 
 std::vector<fs::path> records(const Chain& chain) {
   std::vector<fs::path> files;
@@ -185,6 +218,23 @@ int run_prestress(const StageCall& call) {
   return 0;
 }
 
+int run_outlets(const StageCall& call) {
+  TuneRequest request;
+  request.case_file = call.file;
+  request.overwrite = !call.resume;
+  request.program = call.program;
+  return tune(call.comm, request, call.screen);
+}
+
+int run_post(const StageCall& call) {
+  post::PostRequest request;
+  request.case_file = call.file;
+  request.overwrite = true;
+  request.program = call.program;
+  post::post_results(call.comm, request, call.screen);
+  return 0;
+}
+
 int run_case_stage(const StageCall& call) {
   RunRequest request;
   request.case_file = call.file;
@@ -244,6 +294,7 @@ const std::vector<Stage>& stages() {
        .settings = settings_of<meshing::MeshCase>,
        .without = {"title", "output"},
        .reads = {},
+       .partial = {},
        .continues = never,
        .run = run_mesh},
       {.name = "fibres",
@@ -257,6 +308,7 @@ const std::vector<Stage>& stages() {
        .settings = settings_of<fibres::FibresCase>,
        .without = {"title", "output"},
        .reads = {},
+       .partial = {},
        .continues = never,
        .run = run_fibres},
       {.name = "prestress",
@@ -269,13 +321,44 @@ const std::vector<Stage>& stages() {
        .description = description_of<Case>(),
        .settings = settings_of<Case>,
        // The steady flow has an inflow, resistances and a time step of its own.
-       .without = {"title", "output.*", "prestress.output", "mesh_motion.*", "time.step", "time.steps",
-                   "time.max_halvings", "boundary.*.flow", "boundary.*.flow.value", "boundary.*.flow.step.*",
-                   "boundary.*.flow.table*", "boundary.*.flow.scale", "boundary.*.flow.ramp_time",
-                   "boundary.*.flow.positive", "boundary.*.rcr.capacitance", "boundary.*.rcr.initial_pressure"},
+       .without = {"title",
+                   "output.*",
+                   "prestress.output",
+                   "mesh_motion.*",
+                   "time.step",
+                   "time.steps",
+                   "time.max_halvings",
+                   "time.cycles*",
+                   "time.adaptive*",
+                   "outlets.[!f]*",
+                   "outlets.file",
+                   "boundary.*.flow",
+                   "boundary.*.flow.value",
+                   "boundary.*.flow.step.*",
+                   "boundary.*.flow.table*",
+                   "boundary.*.flow.scale",
+                   "boundary.*.flow.ramp_time",
+                   "boundary.*.flow.positive",
+                   "boundary.*.rcr.capacitance",
+                   "boundary.*.rcr.initial_pressure"},
        .reads = {},
+       .partial = {"flow.checkpoint"},
        .continues = same_flow,
        .run = run_prestress},
+      {.name = "outlets",
+       .what = "outlets for the pressures and flows that are asked for",
+       .file = "case.yaml",
+       .output = "outlets.output",
+       .result = "outlets.yaml",
+       .wanted = [](const Case& c) { return c.outlets && !c.outlets->given_file; },
+       .document = outlets_document,
+       .description = description_of<Case>(),
+       .settings = settings_of<Case>,
+       .without = {"title", "output.*", "time.step", "time.steps", "time.cycles*", "time.adaptive*", "outlets.output"},
+       .reads = {},
+       .partial = {"tuning.json", "probe", "cycle_*"},
+       .continues = never,
+       .run = run_outlets},
       {.name = "run",
        .what = "the case itself",
        .file = "case.yaml",
@@ -285,10 +368,28 @@ const std::vector<Stage>& stages() {
        .document = run_document,
        .description = description_of<Case>(),
        .settings = settings_of<Case>,
-       .without = {"title", "output.directory", "output.checkpoint_every"},
+       .without = {"title", "output.directory", "output.checkpoint_every", "outlets.output", "outlets.tolerance",
+                   "outlets.max_cycles", "outlets.step"},
        .reads = {},
+       .partial = {"checkpoints"},
        .continues = more_steps,
        .run = run_case_stage},
+      {.name = "post",
+       .what = "figures of the cycle",
+       .file = "case.yaml",
+       .output = "post.output",
+       .result = "post.json",
+       .wanted = [](const Case& c) { return c.post.has_value(); },
+       .document = post_document,
+       .description = description_of<Case>(),
+       .settings = settings_of<Case>,
+       // What else the results depend on is in the manifest of the run.
+       .without = {"title", "output.*", "post.output", "wall.prestress", "start", "time*", "newton*", "linear*",
+                   "mesh_motion*", "outlets*", "boundary*"},
+       .reads = run_manifest,
+       .partial = {},
+       .continues = never,
+       .run = run_post},
       {.name = "report",
        .what = "one page with what was done and found",
        .file = "report.yaml",
@@ -300,6 +401,7 @@ const std::vector<Stage>& stages() {
        .settings = settings_of<ReportCase>,
        .without = {"output", "stages.*"},
        .reads = records,
+       .partial = {},
        .continues = never,
        .run = run_report},
   };
