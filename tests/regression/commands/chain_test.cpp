@@ -99,15 +99,15 @@ TEST_F(ChainCommand, ReusesWhatHasTheSameInputs) {
 }
 
 TEST_F(ChainCommand, MoreStepsGoOn) {
-  write_case("2", "directory: out");
-  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
   write_case("4", "directory: out");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
-  expect_printed("continuing from");
-  EXPECT_EQ(printed().find("step 2/4"), std::string::npos) << printed();
-  write_case("4", "directory: whole");
+  write_case("8", "directory: out");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
-  expect_same("out/run/", "whole/run/", {"faces.csv", "balance.csv", "checkpoints/step_00000004.checkpoint"});
+  expect_printed("continuing from");
+  EXPECT_EQ(printed().find("step 4/8"), std::string::npos) << printed();
+  write_case("8", "directory: whole");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_same("out/run/", "whole/run/", {"faces.csv", "balance.csv", "checkpoints/step_00000008.checkpoint"});
 }
 
 TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
@@ -133,7 +133,7 @@ TEST_F(ChainCommand, WhatIsWrongIsToldBeforeAnyWork) {
         "fibres: {mean_angle: 35}\n"
         "fluid: {}\nboundary: {}\ntime: {step: 1 ms, steps: 2}\n");
   EXPECT_EQ(tunica("run case.yaml"), 2);
-  for (const char* text : {"mesh.size", "fibres.mean_angle", "wall"}) expect_printed(text);
+  for (const char* text : {"mesh.size", "fibres.mean_angle"}) expect_printed(text);
   write("case.yaml",
         "analysis: fsi\n"
         "mesh: {geometry: {parametric: {iliacs: {}}}, size: coarse}\n"

@@ -120,7 +120,9 @@ class Album {
 
 void draw_fields(const Scene& scene, Album& album) {
   const auto of = [&](const std::vector<std::string>& inputs, const std::string& array) {
-    PictureOptions options{.inputs = inputs, .output = "", .array = array};
+    PictureOptions options;
+    options.inputs = inputs;
+    options.array = array;
     options.time = scene.peak;
     if (scene.plane) options.view = scene.plane->normal;
     return options;
@@ -150,7 +152,9 @@ void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
     for (const auto& [inputs, array] :
          {std::pair{&scene.lumen, "velocity"}, std::pair{&scene.wall, "von Mises stress"}}) {
       if (inputs->empty()) continue;
-      PictureOptions options{.inputs = *inputs, .output = "", .array = array};
+      PictureOptions options;
+      options.inputs = *inputs;
+      options.array = array;
       options.time = scene.peak;
       options.clip = plane;
       options.view = plane.normal;
@@ -175,7 +179,9 @@ std::string pictures_part(const Results& r, const Say& say) {
     draw_cuts(scene, r.report.metres_per_unit, album);
     for (const char* array : {"TAWSS", "OSI"}) {
       if (scene.shear.empty()) break;
-      PictureOptions options{.inputs = {scene.shear}, .output = "", .array = array};
+      PictureOptions options;
+      options.inputs = {scene.shear};
+      options.array = array;
       if (scene.plane) options.view = scene.plane->normal;
       album.add(options, fmt::format("{} on the wall of the lumen", array));
     }

@@ -41,7 +41,8 @@ std::string settings_table(const Results& r) {
   const auto run = r.records.find("run");
   if (run == r.records.end()) return "";
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [key, value] : at(run->second, "settings").items())
+  const json settings = at(run->second, "settings");
+  for (const auto& [key, value] : settings.items())
     rows.push_back({page::escaped(key), page::escaped(value.get<std::string>())});
   return "<details><summary>All settings of the run, in SI units</summary>\n" + page::table({"key", "value"}, rows) +
          "</details>\n";
@@ -135,7 +136,8 @@ std::string outlets_part(const Results& r) {
   }
   text += page::table(head, rows);
   rows.clear();
-  for (const auto& [face, share] : at(r.tuning, "target fractions").items())
+  const json fractions = at(r.tuning, "target fractions");
+  for (const auto& [face, share] : fractions.items())
     rows.push_back({page::escaped(face), figure(100 * share.get<double>(), 3),
                     cycles.empty() ? "–" : figure(100 * cycles.back()["fractions"].value(face, std::nan("")), 3)});
   return text + page::table({"outlet", "target [% of the outflow]", "last cycle [%]"}, rows) +
