@@ -100,10 +100,12 @@ Vessel identify(const Measured& run, bool rigid) {
 }
 
 TwinState start_of(const Measured& run, const std::vector<double>& stored) {
-  TwinState start{run.inlet_pressure.front(), {}, stored};
+  TwinState start{run.times.front(), run.inlet_pressure.front(), {}, stored};
   for (const auto& flow : run.outlet_flow) start.flows.push_back(flow.front());
   return start;
 }
+
+double settled(const Measured& run) { return run.times[onset]; }
 
 Pressures pressures(const Measured& run) {
   const auto first = run.inlet_pressure.begin() + static_cast<std::ptrdiff_t>(onset);

@@ -29,6 +29,9 @@ Vessel identify(const Measured& run, bool rigid);
 /// State of the twin at the first step of a run whose outlets started from `stored` [Pa].
 TwinState start_of(const Measured& run, const std::vector<double>& stored);
 
+/// Time after which a run answers to its vessel, not to its sudden start [s].
+double settled(const Measured& run);
+/// Extremes are those after `settled`.
 Pressures pressures(const Measured& run);
 std::vector<double> mean_flows(const Measured& run);
 

@@ -34,22 +34,24 @@ struct Plan {
   std::vector<double> stored;  ///< P_c at the start [Pa]
 };
 
-/// The one face with a flow condition. Adds to `problems` what else stands in the way.
-std::string find_inlet(const Case& c, std::vector<Problem>& problems) {
+/// The one lumen face with a flow condition. Adds to `problems` what else stands in the way.
+std::string find_inlet(const Case& c, const mesh::MeshData& mesh, std::vector<Problem>& problems) {
   std::vector<std::string> inlets;
-  for (const auto& [face, condition] : c.boundary) {
-    const bool fraction = std::any_of(c.outlets->fractions.begin(), c.outlets->fractions.end(),
-                                      [&, &name = face](const auto& f) { return f.first == name; });
+  const auto& shares = c.outlets->fractions;
+  for (const auto& [name, condition] : c.boundary) {
+    const auto face =
+        std::find_if(mesh.faces.begin(), mesh.faces.end(), [&, &n = name](const auto& f) { return f.name == n; });
+    if (face == mesh.faces.end() || mesh.regions[face->region].kind != mesh::RegionKind::lumen) continue;
     if (std::holds_alternative<bc::Flow>(condition))
-      inlets.push_back(face);
-    else if (bc::fits_lumen(condition) && !bc::fits_wall(condition) && !fraction &&
-             !std::holds_alternative<bc::NoSlip>(condition))
-      problems.push_back({"boundary." + face, fmt::format("has the condition {}", bc::name(condition)),
+      inlets.push_back(name);
+    else if (!std::holds_alternative<bc::NoSlip>(condition) &&
+             std::none_of(shares.begin(), shares.end(), [&, &n = name](const auto& f) { return f.first == n; }))
+      problems.push_back({"boundary." + name, fmt::format("has the condition {}", bc::name(condition)),
                           "beside the face with the inflow every opening is an outlet: give it a share in "
                           "outlets.fractions"});
   }
   if (inlets.size() == 1) return inlets[0];
-  problems.push_back({"boundary", fmt::format("{} faces have a flow condition", inlets.size()),
+  problems.push_back({"boundary", fmt::format("{} faces of the lumen have a flow condition", inlets.size()),
                       "the tuning needs one inlet with a periodic flow"});
   return "";
 }
@@ -120,8 +122,8 @@ void Tuning::read() {
     if (!case_.settings.outlets)
       throw InputError(request_.case_file.string(), "has no section `outlets`",
                        "add `outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {<outlet>: 1}}`");
-    find_inflow();
     case_.mesh = load_mesh(case_.settings);
+    find_inflow();
   });
   parallel::broadcast(comm_, case_.text);
   if (parallel::rank(comm_) != 0) case_.settings = parse_case(case_.text, request_.case_file);
@@ -138,7 +140,7 @@ void Tuning::read() {
 // A ramp belongs to runs that start from rest; the tuning looks at the periodic state.
 void Tuning::find_inflow() {
   std::vector<Problem> problems;
-  inlet_ = find_inlet(case_.settings, problems);
+  inlet_ = find_inlet(case_.settings, case_.mesh.data, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   for (auto& [face, condition] : case_.settings.boundary)
     if (auto* flow = std::get_if<bc::Flow>(&condition)) {
@@ -216,6 +218,8 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   c.title = fmt::format("Tuning of the outlets: {}", name);
   c.time->step = period_ / steps_per_cycle_;
   c.time->steps = steps;
+  c.time->cycles.reset();
+  c.time->adaptive.reset();
   c.output.every = steps;
   c.output.checkpoint_every = std::max(steps_per_cycle_ / 10, 1);
   run.text += fmt::format("\n# {}: {} of {} steps, R_T = {:.5e} Pa s/m^3, C_T = {:.5e} m^3/Pa, P_c =", name, steps,
@@ -248,10 +252,11 @@ bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
   };
   Start start = parallel::on_root(comm_, [&] {
     const auto earlier = find_results(folder() / name);
-    if (earlier && earlier->case_hash != case_hash(input)) {
-      // What it followed from has changed: another mesh, prestress, or start.
+    const bool same =
+        earlier && earlier->case_hash == case_hash(input) && earlier->mesh_hash == mesh_hash(input.mesh.data);
+    if (earlier && !same) {
       if (!request_.overwrite)
-        throw InputError((folder() / name).string(), "holds a run with other outlets, prestress or case",
+        throw InputError((folder() / name).string(), "holds a run with another mesh, inflow or prestress",
                          "replace it by --overwrite, or name another folder by --output");
       return Start{false, false, true};
     }
@@ -304,7 +309,7 @@ void Tuning::tell(int number, const TuningCycle& cycle) {
   log_->info(fmt::format("cycle {} of at most {}:", number, settings().max_cycles));
   line("asked", {settings().systolic, settings().diastolic, settings().mean()});
   line("measured in 3D", cycle.measured());
-  line("0D from the same start", pressures(cycle.first));
+  line("0D from the same start", cycle.foreseen_first());
   line("0D, periodic", pressures(cycle.periodic));
   line("foreseen when periodic", cycle.foreseen());
   for (std::size_t i = 0; i < cycle.fractions.size(); ++i)
@@ -347,7 +352,7 @@ void Tuning::give_up() {
     return fmt::format(
         "the outlets miss the targets after {} cycle{}: at best {}/{} mmHg (mean {}), asked are {}/{} mmHg; off by "
         "{:.3g} %, tolerance {:.3g} %\n  the best outlets are in {}; `tunica run` takes them from {}\n  try a larger "
-        "max_cycles: the cycles that are there are not computed again",
+        "max_cycles or tolerance, and --overwrite",
         cycles.size(), cycles.size() == 1 ? "" : "s", mmHg(p.systolic), mmHg(p.diastolic), mmHg(p.mean),
         mmHg(settings().systolic), mmHg(settings().diastolic), 100 * best->miss(settings()), 100 * settings().tolerance,
         (folder() / "best.yaml").string(), settings().file().string());
@@ -374,7 +379,7 @@ int Tuning::steps() {
     // (7.6): what 3D has more than the twin, the twin is asked for less.
     Next next = parallel::on_root(comm_, [&] {
       const TuningCycle& last = report_.cycles.back();
-      const Pressures m = last.measured(), f = pressures(last.first);
+      const Pressures m = last.measured(), f = last.foreseen_first();
       return Next{last.miss(settings()) <= settings().tolerance, systolic - (m.systolic - f.systolic),
                   diastolic - (m.diastolic - f.diastolic)};
     });
