@@ -132,7 +132,6 @@ TEST(Twin, VesselIsIdentifiedFromItsHistories) {
     run.times.push_back(t);
     run.durations.push_back(0.004);
     run.inlet_pressure.push_back(p);
-    run.inlet_flow.push_back(0);
     run.lumen_volume.push_back(1e-4 + soft.compliance * p);
     for (std::size_t i = 0; i < 2; ++i) {
       const double q = 4e-5 * (1.5 + std::cos(w * t + static_cast<double>(i))),

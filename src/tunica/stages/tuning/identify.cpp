@@ -81,7 +81,6 @@ Measured read_measured(const std::filesystem::path& results, const Case& c, cons
   Measured run{.times = take(faces, fmt::format("time [{}]", u.time), time),
                .durations = take(of_steps, fmt::format("dt [{}]", u.time), time),
                .inlet_pressure = of_face(inlet, "pressure", u.pressure, pressure),
-               .inlet_flow = of_face(inlet, "flow", u.flow, -flow),
                .lumen_volume = take(balance, fmt::format("lumen volume [{}^3]", u.length), length * length * length),
                .outlet_flow = {},
                .outlet_pressure = {}};

@@ -80,7 +80,12 @@ class Tuning {
   bool compute(const std::string& name, const Plan& plan, int steps);
   TunedOutlets tuned_outlets(const Plan& plan) const;
   ReadCase run_input(const std::string& name, const Plan& plan, int steps) const;
-  bool is_done(const fs::path& results, RunRequest& run) const;
+  /// How a run in 3D is to begin.
+  struct Start {
+    bool done = false, restart = false, overwrite = false;
+  };
+  /// For rank 0.
+  Start start_of_run(const fs::path& results, const ReadCase& input) const;
   void look_at_probe();
   void look_at_cycle(int number, const Plan& plan);
   void tell(int number, const TuningCycle& cycle);
@@ -166,6 +171,9 @@ void Tuning::prepare_folder() {
     if (earlier && *earlier != report_.case_hash && !request_.overwrite)
       throw InputError(folder().string(), "holds the tuning of another case, or of this one before it was changed",
                        "replace it by --overwrite, or name another folder by --output");
+    if (!earlier && !request_.overwrite && fs::exists(settings().file()))
+      throw InputError(settings().file().string(), "is there already, and no tuning beside it that it came from",
+                       "replace it by --overwrite, or name another one by outlets.file");
     std::error_code error;
     fs::create_directories(folder(), error);
     if (error)
@@ -229,14 +237,18 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   return run;
 }
 
-// On rank 0. Sets in `run` how to begin where there is something to compute.
-bool Tuning::is_done(const fs::path& results, RunRequest& run) const {
+Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& input) const {
   const auto earlier = find_results(results);
-  if (!earlier) return false;
-  if (earlier->status == "completed") return true;
-  run.restart = !list_checkpoints(results / "checkpoints").empty();
-  run.overwrite = !run.restart;
-  return false;
+  if (!earlier) return {};
+  if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != mesh_hash(input.mesh.data)) {
+    if (!request_.overwrite)
+      throw InputError(results.string(), "holds a run with another mesh, inflow or prestress",
+                       "replace it by --overwrite, or name another folder by --output");
+    return {.done = false, .restart = false, .overwrite = true};
+  }
+  if (earlier->status == "completed") return {.done = true, .restart = false, .overwrite = false};
+  const bool restart = !list_checkpoints(results / "checkpoints").empty();
+  return {.done = false, .restart = restart, .overwrite = !restart};
 }
 
 bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
@@ -247,22 +259,7 @@ bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
   run.program = request_.program;
   run.resume = fmt::format("tunica tune {}{}", request_.case_file.string(),
                            request_.directory ? " --output " + request_.directory->string() : "");
-  struct Start {
-    bool done, restart, overwrite;
-  };
-  Start start = parallel::on_root(comm_, [&] {
-    const auto earlier = find_results(folder() / name);
-    const bool same =
-        earlier && earlier->case_hash == case_hash(input) && earlier->mesh_hash == mesh_hash(input.mesh.data);
-    if (earlier && !same) {
-      if (!request_.overwrite)
-        throw InputError((folder() / name).string(), "holds a run with another mesh, inflow or prestress",
-                         "replace it by --overwrite, or name another folder by --output");
-      return Start{false, false, true};
-    }
-    const bool done = is_done(folder() / name, run);
-    return Start{done, run.restart, run.overwrite};
-  });
+  Start start = parallel::on_root(comm_, [&] { return start_of_run(folder() / name, input); });
   parallel::broadcast(comm_, start);
   log_->info(fmt::format("{}: R_T = {:.5g} Pa s/mm^3, C_T = {:.5g} mm^3/Pa, {} steps{}", name,
                          1e-9 * plan.totals.resistance, 1e9 * plan.totals.compliance, steps,
