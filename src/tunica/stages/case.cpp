@@ -223,7 +223,21 @@ void check_case(const Case& c, Problems& problems) {
       if (std::any_of(c.boundary.begin(), c.boundary.end(), [&](const auto& b) { return b.first == face; }))
         problems.add("boundary." + face, "is an outlet of `outlets.fractions` as well",
                      "remove it from one of them: tuned outlets have no entry in `boundary`");
+  if (c.time && c.time->cycles && !c.solves_fluid())
+    problems.add("time.cycles", fmt::format("is given, but `analysis: {}` has no openings to look at", analysis),
+                 "give `steps`");
   if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
+}
+
+/// A run can only become periodic when a cycle holds whole periods of everything that drives it.
+void check_period(const Case& c, const std::string& where, const bc::Waveform& course, std::vector<Problem>& found) {
+  if (!c.time || !c.time->cycles || !course.period()) return;
+  const double periods = c.time->cycles->period / *course.period();
+  if (periods < 0.5 || std::abs(periods - std::round(periods)) > 1e-6)
+    found.push_back({"time.cycles.period",
+                     fmt::format("of {:.9g} s is no multiple of the period of {:.9g} s of {}", c.time->cycles->period,
+                                 *course.period(), where),
+                     "give the period of the waveform"});
 }
 
 /// Tables that do not read or make no waveform, each named by its place in the case file.
@@ -231,11 +245,12 @@ std::vector<Problem> check_waveforms(const Case& c) {
   std::vector<Problem> found;
   for (const auto& [face, condition] : c.boundary) {
     const std::string where = "boundary." + face;
+    const auto check = [&](const bc::Waveform& course) { check_period(c, where, course, found); };
     try {
-      if (const auto* flow = std::get_if<bc::Flow>(&condition)) bc::inflow(*flow);
-      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) bc::make_waveform(pressure->pressure);
-      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) bc::make_waveform(velocity->course);
-      if (const auto* traction = std::get_if<bc::Traction>(&condition)) bc::make_waveform(traction->course);
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) check(bc::inflow(*flow));
+      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) check(bc::make_waveform(pressure->pressure));
+      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) check(bc::make_waveform(velocity->course));
+      if (const auto* traction = std::get_if<bc::Traction>(&condition)) check(bc::make_waveform(traction->course));
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
     }

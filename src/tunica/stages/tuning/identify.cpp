@@ -81,7 +81,6 @@ Measured read_measured(const std::filesystem::path& results, const Case& c, cons
   Measured run{.times = take(faces, fmt::format("time [{}]", u.time), time),
                .durations = take(of_steps, fmt::format("dt [{}]", u.time), time),
                .inlet_pressure = of_face(inlet, "pressure", u.pressure, pressure),
-               .inlet_flow = of_face(inlet, "flow", u.flow, -flow),
                .lumen_volume = take(balance, fmt::format("lumen volume [{}^3]", u.length), length * length * length),
                .outlet_flow = {},
                .outlet_pressure = {}};
@@ -100,10 +99,12 @@ Vessel identify(const Measured& run, bool rigid) {
 }
 
 TwinState start_of(const Measured& run, const std::vector<double>& stored) {
-  TwinState start{run.inlet_pressure.front(), {}, stored};
+  TwinState start{run.times.front(), run.inlet_pressure.front(), {}, stored};
   for (const auto& flow : run.outlet_flow) start.flows.push_back(flow.front());
   return start;
 }
+
+double settled(const Measured& run) { return run.times[onset]; }
 
 Pressures pressures(const Measured& run) {
   const auto first = run.inlet_pressure.begin() + static_cast<std::ptrdiff_t>(onset);

@@ -13,7 +13,7 @@ namespace tunica::stages {
 /// Histories of a run, one entry for each step, at the time where the flow is balanced. SI.
 struct Measured {
   std::vector<double> times, durations;                           ///< durations of the steps
-  std::vector<double> inlet_pressure, inlet_flow;                 ///< mean of the face; flow into the vessel
+  std::vector<double> inlet_pressure;                             ///< mean of the face
   std::vector<double> lumen_volume;                               ///< [m^3]
   std::vector<std::vector<double>> outlet_flow, outlet_pressure;  ///< [outlet][step]; pressure: mean of the face
 };
@@ -29,6 +29,9 @@ Vessel identify(const Measured& run, bool rigid);
 /// State of the twin at the first step of a run whose outlets started from `stored` [Pa].
 TwinState start_of(const Measured& run, const std::vector<double>& stored);
 
+/// Time after which a run answers to its vessel, not to its sudden start [s].
+double settled(const Measured& run);
+/// Extremes are those after `settled`.
 Pressures pressures(const Measured& run);
 std::vector<double> mean_flows(const Measured& run);
 

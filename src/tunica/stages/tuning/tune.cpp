@@ -34,22 +34,24 @@ struct Plan {
   std::vector<double> stored;  ///< P_c at the start [Pa]
 };
 
-/// The one face with a flow condition. Adds to `problems` what else stands in the way.
-std::string find_inlet(const Case& c, std::vector<Problem>& problems) {
+/// The one lumen face with a flow condition. Adds to `problems` what else stands in the way.
+std::string find_inlet(const Case& c, const mesh::MeshData& mesh, std::vector<Problem>& problems) {
   std::vector<std::string> inlets;
-  for (const auto& [face, condition] : c.boundary) {
-    const bool fraction = std::any_of(c.outlets->fractions.begin(), c.outlets->fractions.end(),
-                                      [&, &name = face](const auto& f) { return f.first == name; });
+  const auto& shares = c.outlets->fractions;
+  for (const auto& [name, condition] : c.boundary) {
+    const auto face =
+        std::find_if(mesh.faces.begin(), mesh.faces.end(), [&, &n = name](const auto& f) { return f.name == n; });
+    if (face == mesh.faces.end() || mesh.regions[face->region].kind != mesh::RegionKind::lumen) continue;
     if (std::holds_alternative<bc::Flow>(condition))
-      inlets.push_back(face);
-    else if (bc::fits_lumen(condition) && !bc::fits_wall(condition) && !fraction &&
-             !std::holds_alternative<bc::NoSlip>(condition))
-      problems.push_back({"boundary." + face, fmt::format("has the condition {}", bc::name(condition)),
+      inlets.push_back(name);
+    else if (!std::holds_alternative<bc::NoSlip>(condition) &&
+             std::none_of(shares.begin(), shares.end(), [&, &n = name](const auto& f) { return f.first == n; }))
+      problems.push_back({"boundary." + name, fmt::format("has the condition {}", bc::name(condition)),
                           "beside the face with the inflow every opening is an outlet: give it a share in "
                           "outlets.fractions"});
   }
   if (inlets.size() == 1) return inlets[0];
-  problems.push_back({"boundary", fmt::format("{} faces have a flow condition", inlets.size()),
+  problems.push_back({"boundary", fmt::format("{} faces of the lumen have a flow condition", inlets.size()),
                       "the tuning needs one inlet with a periodic flow"});
   return "";
 }
@@ -78,7 +80,12 @@ class Tuning {
   bool compute(const std::string& name, const Plan& plan, int steps);
   TunedOutlets tuned_outlets(const Plan& plan) const;
   ReadCase run_input(const std::string& name, const Plan& plan, int steps) const;
-  bool is_done(const fs::path& results, RunRequest& run) const;
+  /// How a run in 3D is to begin.
+  struct Start {
+    bool done = false, restart = false, overwrite = false;
+  };
+  /// For rank 0.
+  Start start_of_run(const fs::path& results, const ReadCase& input) const;
   void look_at_probe();
   void look_at_cycle(int number, const Plan& plan);
   void tell(int number, const TuningCycle& cycle);
@@ -120,8 +127,8 @@ void Tuning::read() {
     if (!case_.settings.outlets)
       throw InputError(request_.case_file.string(), "has no section `outlets`",
                        "add `outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {<outlet>: 1}}`");
-    find_inflow();
     case_.mesh = load_mesh(case_.settings);
+    find_inflow();
   });
   parallel::broadcast(comm_, case_.text);
   if (parallel::rank(comm_) != 0) case_.settings = parse_case(case_.text, request_.case_file);
@@ -139,7 +146,7 @@ void Tuning::read() {
 // A ramp belongs to runs that start from rest; the tuning looks at the periodic state.
 void Tuning::find_inflow() {
   std::vector<Problem> problems;
-  inlet_ = find_inlet(case_.settings, problems);
+  inlet_ = find_inlet(case_.settings, case_.mesh.data, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   for (auto& [face, condition] : case_.settings.boundary)
     if (auto* flow = std::get_if<bc::Flow>(&condition)) {
@@ -165,6 +172,9 @@ void Tuning::prepare_folder() {
     if (earlier && *earlier != report_.case_hash && !request_.overwrite)
       throw InputError(folder().string(), "holds the tuning of another case, or of this one before it was changed",
                        "replace it by --overwrite, or name another folder by --output");
+    if (!earlier && !request_.overwrite && fs::exists(settings().file()))
+      throw InputError(settings().file().string(), "is there already, and no tuning beside it that it came from",
+                       "replace it by --overwrite, or name another one by outlets.file");
     std::error_code error;
     fs::create_directories(folder(), error);
     if (error)
@@ -217,6 +227,8 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   c.title = fmt::format("Tuning of the outlets: {}", name);
   c.time->step = period_ / steps_per_cycle_;
   c.time->steps = steps;
+  c.time->cycles.reset();
+  c.time->adaptive.reset();
   c.output.every = steps;
   c.output.checkpoint_every = std::max(steps_per_cycle_ / 10, 1);
   run.text += fmt::format("\n# {}: {} of {} steps, R_T = {:.5e} Pa s/m^3, C_T = {:.5e} m^3/Pa, P_c =", name, steps,
@@ -226,14 +238,18 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   return run;
 }
 
-// On rank 0. Sets in `run` how to begin where there is something to compute.
-bool Tuning::is_done(const fs::path& results, RunRequest& run) const {
+Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& input) const {
   const auto earlier = find_results(results);
-  if (!earlier) return false;
-  if (earlier->status == "completed") return true;
-  run.restart = !list_checkpoints(results / "checkpoints").empty();
-  run.overwrite = !run.restart;
-  return false;
+  if (!earlier) return {};
+  if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != mesh_hash(input.mesh.data)) {
+    if (!request_.overwrite)
+      throw InputError(results.string(), "holds a run with another mesh, inflow or prestress",
+                       "replace it by --overwrite, or name another folder by --output");
+    return {.done = false, .restart = false, .overwrite = true};
+  }
+  if (earlier->status == "completed") return {.done = true, .restart = false, .overwrite = false};
+  const bool restart = !list_checkpoints(results / "checkpoints").empty();
+  return {.done = false, .restart = restart, .overwrite = !restart};
 }
 
 bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
@@ -244,21 +260,7 @@ bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
   run.program = request_.program;
   run.resume = fmt::format("tunica tune {}{}", request_.case_file.string(),
                            request_.directory ? " --output " + request_.directory->string() : "");
-  struct Start {
-    bool done, restart, overwrite;
-  };
-  Start start = parallel::on_root(comm_, [&] {
-    const auto earlier = find_results(folder() / name);
-    if (earlier && earlier->case_hash != case_hash(input)) {
-      // What it followed from has changed: another mesh, prestress, or start.
-      if (!request_.overwrite)
-        throw InputError((folder() / name).string(), "holds a run with other outlets, prestress or case",
-                         "replace it by --overwrite, or name another folder by --output");
-      return Start{false, false, true};
-    }
-    const bool done = is_done(folder() / name, run);
-    return Start{done, run.restart, run.overwrite};
-  });
+  Start start = parallel::on_root(comm_, [&] { return start_of_run(folder() / name, input); });
   parallel::broadcast(comm_, start);
   log_->info(fmt::format("{}: R_T = {:.5g} Pa s/mm^3, C_T = {:.5g} mm^3/Pa, {} steps{}", name,
                          1e-9 * plan.totals.resistance, 1e9 * plan.totals.compliance, steps,
@@ -305,7 +307,7 @@ void Tuning::tell(int number, const TuningCycle& cycle) {
   log_->info(fmt::format("cycle {} of at most {}:", number, settings().max_cycles));
   line("asked", {settings().systolic, settings().diastolic, settings().mean()});
   line("measured in 3D", cycle.measured());
-  line("0D from the same start", pressures(cycle.first));
+  line("0D from the same start", cycle.foreseen_first());
   line("0D, periodic", pressures(cycle.periodic));
   line("foreseen when periodic", cycle.foreseen());
   for (std::size_t i = 0; i < cycle.fractions.size(); ++i)
@@ -348,7 +350,7 @@ void Tuning::give_up() {
     return fmt::format(
         "the outlets miss the targets after {} cycle{}: at best {}/{} mmHg (mean {}), asked are {}/{} mmHg; off by "
         "{:.3g} %, tolerance {:.3g} %\n  the best outlets are in {}; `tunica run` takes them from {}\n  try a larger "
-        "max_cycles: the cycles that are there are not computed again",
+        "max_cycles or tolerance, and --overwrite",
         cycles.size(), cycles.size() == 1 ? "" : "s", mmHg(p.systolic), mmHg(p.diastolic), mmHg(p.mean),
         mmHg(settings().systolic), mmHg(settings().diastolic), 100 * best->miss(settings()), 100 * settings().tolerance,
         (folder() / "best.yaml").string(), settings().file().string());
@@ -375,7 +377,7 @@ int Tuning::steps() {
     // (7.6): what 3D has more than the twin, the twin is asked for less.
     Next next = parallel::on_root(comm_, [&] {
       const TuningCycle& last = report_.cycles.back();
-      const Pressures m = last.measured(), f = pressures(last.first);
+      const Pressures m = last.measured(), f = last.foreseen_first();
       return Next{last.miss(settings()) <= settings().tolerance, systolic - (m.systolic - f.systolic),
                   diastolic - (m.diastolic - f.diastolic)};
     });

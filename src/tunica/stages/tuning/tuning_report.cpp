@@ -37,7 +37,7 @@ ordered_json json_of(const TuningCycle& cycle, const TuningCase& outlets) {
   ordered_json json{{"total resistance [Pa s/m^3]", cycle.totals.resistance},
                     {"total compliance [m^3/Pa]", cycle.totals.compliance},
                     {"measured", json_of(cycle.measured())},
-                    {"0D from the same start", json_of(pressures(cycle.first))},
+                    {"0D from the same start", json_of(cycle.foreseen_first())},
                     {"0D periodic", json_of(pressures(cycle.periodic))},
                     {"foreseen", json_of(cycle.foreseen())},
                     {"relative miss", cycle.miss(outlets)},
@@ -86,7 +86,7 @@ void write_table(const TuningReport& report, const Case& c, double pressure) {
   for (const auto& cycle : report.cycles) {
     text += fmt::format("{},{:.8g},{:.8g},{:.8g}", ++number, cycle.totals.resistance, cycle.totals.compliance,
                         cycle.vessel.compliance);
-    for (const auto& p : {cycle.measured(), pressures(cycle.first), pressures(cycle.periodic), cycle.foreseen()})
+    for (const auto& p : {cycle.measured(), cycle.foreseen_first(), pressures(cycle.periodic), cycle.foreseen()})
       text += fmt::format(",{:.6g},{:.6g},{:.6g}", p.systolic / pressure, p.diastolic / pressure, p.mean / pressure);
     for (const double share : cycle.fractions) text += fmt::format(",{:.6g}", share);
     text += fmt::format(",{:.6g}\n", cycle.miss(outlets));
@@ -146,7 +146,7 @@ void plot_pressure(const TuningReport& report, const Case& c, double pressure) {
 }  // namespace
 
 Pressures TuningCycle::foreseen() const {
-  const Pressures m = measured(), f = pressures(first), p = pressures(periodic);
+  const Pressures m = measured(), f = foreseen_first(), p = pressures(periodic);
   return {m.systolic + p.systolic - f.systolic, m.diastolic + p.diastolic - f.diastolic, m.mean + p.mean - f.mean};
 }
 

@@ -23,6 +23,7 @@ struct TuningCycle {
   std::vector<double> fractions;  ///< of the mean outflow, in 3D
 
   Pressures measured() const { return pressures(run); }
+  Pressures foreseen_first() const { return pressures(first, settled(run)); }
   /// Of the periodic state in 3D: what was measured, and the way that the twin has still to go, (7.6).
   Pressures foreseen() const;
   /// Largest difference from the targets, and of the mean from the twin's, relative.

@@ -39,7 +39,7 @@ struct Past {
 class March {
  public:
   March(const Vessel& vessel, const std::vector<bc::Rcr>& outlets, const bc::Waveform& inflow, const TwinState& start)
-      : vessel_(vessel), inflow_(inflow) {
+      : vessel_(vessel), inflow_(inflow), time_(start.time) {
     pressure_.last = start.pressure;
     for (std::size_t i = 0; i < outlets.size(); ++i) {
       auto& outlet = outlets_.emplace_back("outlet", outlets[i]);
@@ -49,9 +49,10 @@ class March {
   }
 
   /// (7.2): each flow is affine in the pressure at the inlet, and the pressure follows from the balance of volume.
-  void step(double time, double dt) {
+  void step(double dt) {
+    time_ += dt;
     double conductance = vessel_.compliance * pressure_.slope(dt);
-    double supply = inflow_.value(time) + vessel_.compliance * pressure_.known(dt);
+    double supply = inflow_.value(time_) + vessel_.compliance * pressure_.known(dt);
     std::vector<std::pair<double, double>> lines;  // Q = first * P - second
     for (std::size_t i = 0; i < outlets_.size(); ++i) {
       const auto& [resistance, inertance] = vessel_.paths[i];
@@ -68,22 +69,27 @@ class March {
     }
   }
 
+  /// From the present time to the end of the period, where time begins anew.
   TwinCycle cycle(double period) {
     TwinCycle c;
     c.flows.resize(outlets_.size());
-    const double dt = period / steps_per_period;
-    for (int k = 1; k <= steps_per_period; ++k) {
-      step(k * dt, dt);
-      c.times.push_back(k * dt);
+    const double begin = time_;
+    const int steps = std::max(static_cast<int>(std::lround(steps_per_period * (1 - begin / period))), 1);
+    const double dt = (period - begin) / steps;
+    for (int k = 1; k <= steps; ++k) {
+      step(dt);
+      time_ = begin + k * dt;
+      c.times.push_back(time_);
       c.pressure.push_back(pressure_.last);
       for (std::size_t i = 0; i < flows_.size(); ++i) c.flows[i].push_back(flows_[i].last);
     }
+    time_ = 0;
     c.end = state();
     return c;
   }
 
   TwinState state() const {
-    TwinState s{pressure_.last, {}, {}};
+    TwinState s{time_, pressure_.last, {}, {}};
     for (const auto& flow : flows_) s.flows.push_back(flow.last);
     for (const auto& outlet : outlets_) s.stored.push_back(outlet.stored_pressure());
     return s;
@@ -96,6 +102,7 @@ class March {
  private:
   const Vessel& vessel_;
   const bc::Waveform& inflow_;
+  double time_;
   std::vector<bc::Outlet> outlets_;
   Past pressure_;
   std::vector<Past> flows_;
@@ -137,8 +144,9 @@ std::vector<bc::Rcr> share_out(const TuningCase& outlets, const Totals& totals) 
   return shared;
 }
 
-Pressures pressures(const TwinCycle& cycle) {
-  const auto [low, high] = std::minmax_element(cycle.pressure.begin(), cycle.pressure.end());
+Pressures pressures(const TwinCycle& cycle, double settled) {
+  const auto begin = std::lower_bound(cycle.times.begin(), cycle.times.end(), settled) - cycle.times.begin();
+  const auto [low, high] = std::minmax_element(cycle.pressure.begin() + begin, cycle.pressure.end());
   return {*high, *low, average(cycle.pressure)};
 }
 

@@ -36,6 +36,7 @@ std::vector<bc::Rcr> share_out(const TuningCase& outlets, const Totals& totals);
 
 /// What the twin starts from.
 struct TwinState {
+  double time = 0;             ///< s
   double pressure = 0;         ///< at the inlet [Pa]
   std::vector<double> flows;   ///< into the outlets [m^3/s]
   std::vector<double> stored;  ///< P_c of the outlets [Pa]
@@ -51,7 +52,8 @@ struct TwinCycle {
 struct Pressures {
   double systolic = 0, diastolic = 0, mean = 0;  ///< [Pa]
 };
-Pressures pressures(const TwinCycle& cycle);
+/// Extremes are those after the time `settled` [s].
+Pressures pressures(const TwinCycle& cycle, double settled = 0);
 std::vector<double> mean_flows(const TwinCycle& cycle);
 
 /// Second-order backward differences with a thousand steps in a period, each outlet exact for a flow linear in a step.
@@ -60,7 +62,7 @@ class Twin {
   /// `inflow`: periodic with `period` [s]. As many `outlets` as paths.
   Twin(Vessel vessel, std::vector<bc::Rcr> outlets, bc::Waveform inflow, double period);
 
-  /// The first cycle from `start`.
+  /// The first cycle from `start` on, to the end of the period.
   TwinCycle first_cycle(const TwinState& start) const;
   /// The cycle that repeats itself. Throws SolverError when a thousand cycles do not lead to it.
   TwinCycle periodic_cycle() const;
