@@ -77,15 +77,39 @@ std::optional<frames::LumenWalls> lumen_walls(const Case& c, const PostSettings&
   return std::nullopt;
 }
 
-/// 0 at the inlet, 1 at the end, no flux elsewhere: branches hold the value that it has where they leave.
+frames::Domain domain_of(const Case& c) {
+  return c.meshes.interface ? frames::Domain::lumen_and_wall : frames::Domain::lumen;
+}
+
+void prescribe(const mesh::DistributedMesh& mesh, frames::Domain domain, const std::string& face, double value,
+               std::vector<double>& at_nodes) {
+  for (const auto& t : mesh.face(face).triangles)
+    for (const auto node : t) at_nodes[static_cast<std::size_t>(frames::carrier(mesh, domain, node))] = value;
+}
+
+/// 0 at the inlet, one value and unit flux on average at each other opening, so that surfaces of one value cross
+/// branches as they cross the aorta.
 std::vector<double> potential_along(const Case& c, const mesh::MeshData& data, const mesh::DistributedMesh& mesh,
-                                    std::size_t inlet, std::size_t end) {
-  const auto domain = c.meshes.interface ? frames::Domain::lumen_and_wall : frames::Domain::lumen;
+                                    const Vessel& vessel) {
   frames::LaplaceConditions conditions(mesh);
-  for (const auto& [face, value] : {std::pair{inlet, 0.0}, {end, 1.0}})
-    for (const auto& t : mesh.face(data.faces[face].name).triangles)
-      for (const auto node : t) conditions.value[static_cast<std::size_t>(frames::carrier(mesh, domain, node))] = value;
-  return everywhere(mesh, frames::solve_laplace(mesh, domain, conditions, "Stations along the aorta").phi);
+  for (const auto& opening : vessel.openings) {
+    if (opening.face == vessel.inlet) continue;
+    prescribe(mesh, domain_of(c), opening.name, static_cast<double>(conditions.flux.size()), conditions.group);
+    double area = 0;
+    for (const auto& t : data.faces[opening.face].triangles) area += norm(mesh::area_vector(data.points, t));
+    conditions.flux.push_back(area);
+  }
+  prescribe(mesh, domain_of(c), data.faces[vessel.inlet].name, 0, conditions.value);
+  return everywhere(mesh, frames::solve_laplace(mesh, domain_of(c), conditions, "Stations along the aorta").phi);
+}
+
+/// 0 at the inlet, 1 at the end, no flux elsewhere: a branch holds the value that it has where it leaves.
+std::vector<double> potential_towards_end(const Case& c, const mesh::MeshData& data, const mesh::DistributedMesh& mesh,
+                                          const Vessel& vessel) {
+  frames::LaplaceConditions conditions(mesh);
+  prescribe(mesh, domain_of(c), data.faces[vessel.inlet].name, 0, conditions.value);
+  prescribe(mesh, domain_of(c), data.faces[vessel.end].name, 1, conditions.value);
+  return everywhere(mesh, frames::solve_laplace(mesh, domain_of(c), conditions, "The way to the end of the aorta").phi);
 }
 
 /// Connected pieces of the surface on which `side` is zero, without those that a rounding of the surface leaves.
@@ -159,7 +183,8 @@ Vessel make_vessel(const Case& c, const PostSettings& settings, const mesh::Mesh
                             : farthest_opening(data, vessel);
   const auto walls = lumen_walls(c, settings, data, vessel);
   const auto mesh = mesh::distribute(data, comm);
-  vessel.along = potential_along(c, data, mesh, vessel.inlet, vessel.end);
+  vessel.along = potential_along(c, data, mesh, vessel);
+  vessel.towards_end = potential_towards_end(c, data, mesh, vessel);
   if (walls) {
     vessel.side = everywhere(mesh, frames::lumen_sides(mesh, *walls).phi);
     const auto* lumen = lumen_region(data);
