@@ -41,15 +41,44 @@ void sort_faces(const Case& c, const mesh::MeshData& data, Vessel& vessel) {
   }
 }
 
+/// Index in data.faces; adds a problem when there is no such opening.
 std::size_t opening_face(const Vessel& vessel, const std::string& name, const std::string& key,
-                         const std::string& what) {
+                         std::vector<Problem>& problems) {
   std::vector<std::string> names;
   for (const auto& o : vessel.openings) {
     if (o.name == name) return o.face;
     names.push_back(o.name);
   }
-  throw InputError("post." + key, fmt::format("the lumen has no opening '{}' {}", name, what),
-                   "use one of: " + mesh::list_names(names));
+  problems.push_back(
+      {"post." + key, fmt::format("the lumen has no opening '{}'", name), "use one of: " + mesh::list_names(names)});
+  return 0;
+}
+
+void check_regions(const PostSettings& settings, const mesh::MeshData& data, std::vector<Problem>& problems) {
+  if (!settings.lumens) return;
+  std::vector<std::string> known;
+  for (const auto& region : data.regions)
+    if (region.kind == RegionKind::wall) known.push_back(region.name);
+  const auto look_up = [&](const std::string& key, const std::vector<std::string>& names) {
+    for (const auto& name : names)
+      if (!has_wall_region(data, name))
+        problems.push_back({"post.lumens." + key, fmt::format("the wall has no region '{}'", name),
+                            "use one of: " + mesh::list_names(known)});
+  };
+  look_up("true_lumen", settings.lumens->true_lumen);
+  look_up("false_lumen", settings.lumens->false_lumen);
+}
+
+/// Faces and regions that the settings name. Throws InputError with all that the mesh does not have.
+void find_ends(const PostSettings& settings, const mesh::MeshData& data, Vessel& vessel) {
+  std::vector<Problem> problems;
+  vessel.inlet = opening_face(vessel, settings.inlet, "inlet", problems);
+  if (settings.end) vessel.end = opening_face(vessel, *settings.end, "end", problems);
+  check_regions(settings, data, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (!settings.end) vessel.end = farthest_opening(data, vessel);
+  if (vessel.end == vessel.inlet)
+    throw InputError("post.end", "is the inlet", "name the opening at the other end of the aorta");
 }
 
 /// A nodal field of the distributed mesh as a whole on all ranks, in the order of MeshData.
@@ -178,9 +207,7 @@ Vessel make_vessel(const Case& c, const PostSettings& settings, const mesh::Mesh
     return vessel;
   }
   sort_faces(c, data, vessel);
-  vessel.inlet = opening_face(vessel, settings.inlet, "inlet", "for the blood to enter");
-  vessel.end = settings.end ? opening_face(vessel, *settings.end, "end", "for the aorta to end")
-                            : farthest_opening(data, vessel);
+  find_ends(settings, data, vessel);
   const auto walls = lumen_walls(c, settings, data, vessel);
   const auto mesh = mesh::distribute(data, comm);
   vessel.along = potential_along(c, data, mesh, vessel);
