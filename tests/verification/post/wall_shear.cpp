@@ -30,12 +30,12 @@ nlohmann::json run_and_post(const test::SharedFolder& folder, const std::string&
   return nlohmann::json::parse(report);
 }
 
-std::string tube(double radius, double length, int k) {
+std::string tube(double radius, double length, int k, int along) {
   return fmt::format(
       "analysis: flow\n"
-      "meshes: {{tube: {{radius: {} m, length: {} m, cells_around: {}, cells_radial: {}, cells_along: 4}}}}\n"
+      "meshes: {{tube: {{radius: {} m, length: {} m, cells_around: {}, cells_radial: {}, cells_along: {}}}}}\n"
       "fluid: {{density: 1060 kg/m^3, backflow_stabilisation: 0, viscosity: {{newtonian: {{viscosity: 4 mPa s}}}}}}\n",
-      radius, length, 8 * k, 2 * k);
+      radius, length, 8 * k, 2 * k, along);
 }
 
 TEST(WallShear, Poiseuille) {
@@ -48,7 +48,7 @@ TEST(WallShear, Poiseuille) {
   std::vector<double> errors;
   for (const int k : {2, 4}) {
     const test::SharedFolder folder;
-    const auto report = run_and_post(folder, tube(radius, 0.01, k) +
+    const auto report = run_and_post(folder, tube(radius, 0.01, k, 4) +
                                                  "boundary:\n  lumen_inlet: {flow: {value: 20 ml/s}}\n"
                                                  "  lumen_outlet: {pressure: 0 Pa}\n  lumen_wall: no_slip\n"
                                                  "time: {step: 10 s, steps: 12, rho_infinity: 0}\n"
@@ -82,9 +82,10 @@ Complex bessel(int n, Complex z) {
 
 // Womersley 1955: -dp/dz = G sin(omega t), and the stress at the wall is Im{G R / Lambda J1(Lambda) / J0(Lambda) e^(i
 // omega t)} with Lambda = i^(3/2) alpha. Over a period it averages 2 / pi of its amplitude, and its direction half of
-// the time.
+// the time. At the ends, where a pressure acts alone, the flow is not quite that of the infinite tube: the median is
+// that of the long part between.
 TEST(WallShear, Womersley) {
-  constexpr double radius = 0.002, length = 0.004, period = 1, gradient = 400, omega = 2 * pi / period;
+  constexpr double radius = 0.002, length = 0.02, period = 1, gradient = 40, omega = 2 * pi / period;
   const Complex lambda = radius * std::sqrt(density * omega / mu) * std::exp(Complex(0, 0.75 * pi));
   const double amplitude = gradient * radius * std::abs(bessel(1, lambda) / (lambda * bessel(0, lambda)));
   std::vector<double> errors;
@@ -95,19 +96,19 @@ TEST(WallShear, Womersley) {
       table += fmt::format("{},{}\n", period * i / 100, gradient * length * std::sin(2 * pi * (i % 100) / 100));
     folder.write("pressure.csv", table);
     const auto report = run_and_post(
-        folder, tube(radius, length, k) +
+        folder, tube(radius, length, k, 12) +
                     "boundary:\n"
                     "  lumen_inlet: {pressure: {table: {file: pressure.csv, time_unit: s, unit: Pa}}}\n"
                     "  lumen_outlet: {pressure: 0 Pa}\n  lumen_wall: no_slip\n"
-                    "time: {step: 25 ms, steps: 80}\noutput: {every: 1}\npost: {period: 1 s, spacing: 1 mm}\n");
+                    "time: {step: 25 ms, steps: 80}\noutput: {every: 1}\npost: {period: 1 s, spacing: 4 mm}\n");
     const double found = report["wall_shear"]["tawss_Pa"]["p50"], osi = report["wall_shear"]["osi"]["p50"];
     errors.push_back(found / (2 / pi * amplitude) - 1);
     say("  %2d cells around: TAWSS %.4f Pa, exact %.4f Pa (%+.2f %%), OSI %.4f\n", 8 * k, found, 2 / pi * amplitude,
         100 * errors.back(), osi);
-    EXPECT_GT(osi, 0.495);
+    EXPECT_GT(osi, 0.499);
     EXPECT_LE(osi, 0.5);
   }
-  EXPECT_LT(std::abs(errors[1]), 0.1);
+  EXPECT_LT(std::abs(errors[1]), 0.065);
   EXPECT_LT(std::abs(errors[1]), 0.8 * std::abs(errors[0]));
 }
 
