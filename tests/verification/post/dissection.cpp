@@ -39,11 +39,11 @@ std::string case_text() {
       "  interface: {lumen: lumen_wall, wall: wall_inner}\n"
       "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
       "wall: {density: 1120 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.49}}}\n"
-      "boundary:\n  lumen_inlet: {flow: {value: 100 ml/s, ramp_time: 10 ms}}\n  wall_inlet: fixed\n"
+      "boundary:\n  lumen_inlet: {flow: {value: 200 ml/s, ramp_time: 60 ms}}\n  wall_inlet: fixed\n"
       "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n";
   for (const char* name : outlets)
     text += fmt::format("  lumen_{}: {{resistance: 4e8 Pa s/m^3}}\n  wall_{}: fixed\n", name, name);
-  return text + "time: {step: 2 ms, steps: 10, rho_infinity: 0.2}\noutput: {every: 1}\npost: {spacing: 10 mm}\n";
+  return text + "time: {step: 5 ms, steps: 20, rho_infinity: 0.2}\noutput: {every: 1}\npost: {spacing: 10 mm}\n";
 }
 
 TEST(PostDissection, LumensTearsAndMass) {

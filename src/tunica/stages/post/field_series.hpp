@@ -26,7 +26,8 @@ struct FieldFrame {
 /// Not collective: any rank may read any frame.
 class FieldSeries {
  public:
-  /// `data` must outlive this. Throws InputError when there are no results, or none of the fields that are needed.
+  /// `c` and `data` must outlive this. Throws InputError when there are no results, or none of the fields that are
+  /// needed.
   FieldSeries(const Case& c, const mesh::MeshData& data, std::filesystem::path folder);
   ~FieldSeries();
   FieldSeries(FieldSeries&&) noexcept;

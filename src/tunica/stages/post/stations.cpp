@@ -16,6 +16,7 @@ namespace {
 
 constexpr int centreline_points = 300;
 constexpr double least_share = 0.01;  ///< of a section that is a lumen
+constexpr double sizeable = 0.2;      ///< share of the largest piece
 
 /// Pieces of one lumen at one level.
 struct Pieces {
@@ -53,29 +54,36 @@ std::vector<std::array<Pieces, 2>> cut_levels(const mesh::MeshData& data, const 
   return result;
 }
 
-/// Triangles of the connected piece with the largest area.
-std::vector<CutTriangle> largest_piece(const mesh::MeshData& data, const std::vector<double>& along,
-                                       const Pieces& pieces) {
+/// The connected piece that lies in the aorta. A branch that left upstream has pieces of the same value; among those of
+/// a size the one nearest to the end counts.
+std::vector<CutTriangle> piece_of_aorta(const mesh::MeshData& data, const Vessel& vessel, const Pieces& pieces) {
   const auto group = connected_groups(pieces.elements);
   std::map<int, std::vector<CutTriangle>> surfaces;
   for (std::size_t k = 0; k < group.size(); ++k)
-    append_triangles(pieces.polygons[k], pieces.elements[k], values_at(along, pieces.elements[k]), data.points,
+    append_triangles(pieces.polygons[k], pieces.elements[k], values_at(vessel.along, pieces.elements[k]), data.points,
                      surfaces[group[k]]);
-  std::vector<CutTriangle> largest;
-  double size = 0;
+  std::map<int, SurfaceFigures> figures;
+  double largest = 0;
+  for (const auto& [number, surface] : surfaces) {
+    // As the pressure on the surface: its mean is all that is asked for.
+    figures[number] = evaluate(surface, {.points = &data.points, .pressure = vessel.towards_end});
+    largest = std::max(largest, figures[number].size);
+  }
+  std::vector<CutTriangle> chosen;
+  double nearest = -1;
   for (auto& [number, surface] : surfaces)
-    if (const double s = evaluate(surface, {.points = &data.points}).size; s > size) {
-      size = s;
-      largest = std::move(surface);
+    if (figures[number].size >= sizeable * largest && figures[number].mean_pressure > nearest) {
+      nearest = figures[number].mean_pressure;
+      chosen = std::move(surface);
     }
-  return largest;
+  return chosen;
 }
 
 Station make_station(const mesh::MeshData& data, const Vessel& vessel, const std::array<Pieces, 2>& pieces) {
   Station station;
   std::array<SurfaceFigures, 2> figures;
   for (std::size_t k = 0; k < 2; ++k) {
-    station.sections[k] = largest_piece(data, vessel.along, pieces[k]);
+    station.sections[k] = piece_of_aorta(data, vessel, pieces[k]);
     figures[k] = evaluate(station.sections[k], {.points = &data.points});
   }
   const double total = figures[0].size + figures[1].size;
@@ -92,8 +100,10 @@ std::vector<Station> stations_at(const mesh::MeshData& data, const Vessel& vesse
   return stations;
 }
 
-/// Values of the potential that share out the nodes of the lumen evenly.
-std::vector<double> even_levels(const mesh::MeshData& data, const std::vector<double>& along) {
+/// Values of the potential before the end of the aorta that share out the nodes of the lumen evenly.
+std::vector<double> even_levels(const mesh::MeshData& data, const Vessel& vessel) {
+  const auto& along = vessel.along;
+  const double end = along[static_cast<std::size_t>(data.faces[vessel.end].triangles[0][0])];
   const auto* lumen = lumen_region(data);
   std::vector<std::int64_t> nodes;
   for (auto e = lumen->first_element; e < lumen->end_element; ++e)
@@ -102,7 +112,7 @@ std::vector<double> even_levels(const mesh::MeshData& data, const std::vector<do
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<double> values;
   for (const auto node : nodes)
-    if (const double v = along[static_cast<std::size_t>(node)]; v > 0 && v < 1) values.push_back(v);
+    if (const double v = along[static_cast<std::size_t>(node)]; v > 0 && v < end) values.push_back(v);
   std::sort(values.begin(), values.end());
   std::vector<double> levels;
   for (int k = 1; k <= centreline_points && !values.empty(); ++k) {
@@ -192,7 +202,7 @@ std::size_t farthest_opening(const mesh::MeshData& data, const Vessel& vessel) {
 }
 
 std::vector<Station> make_stations(const mesh::MeshData& data, const Vessel& vessel, double spacing) {
-  const auto levels = even_levels(data, vessel.along);
+  const auto levels = even_levels(data, vessel);
   const auto [length, total] = arc_lengths(data, vessel, stations_at(data, vessel, levels));
   std::vector<double> chosen, distances;
   for (double s = spacing; s < total - 0.5 * spacing; s += spacing) {

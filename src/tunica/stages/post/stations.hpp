@@ -10,7 +10,7 @@ namespace tunica::stages::post {
 std::size_t farthest_opening(const mesh::MeshData& data, const Vessel& vessel);
 
 /// Level surfaces of vessel.along, split by vessel.side where there is one. The centreline joins the centroids of
-/// sections; of each lumen the largest connected piece of a section counts, so that a branch adds nothing. A false
+/// sections; of each lumen the connected piece in the aorta counts, not those in branches. A false
 /// lumen of less than 1 % of the section is none. Throws InputError when the spacing leaves no station.
 std::vector<Station> make_stations(const mesh::MeshData& data, const Vessel& vessel, double spacing);
 

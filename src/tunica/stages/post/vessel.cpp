@@ -41,15 +41,44 @@ void sort_faces(const Case& c, const mesh::MeshData& data, Vessel& vessel) {
   }
 }
 
+/// Index in data.faces; adds a problem when there is no such opening.
 std::size_t opening_face(const Vessel& vessel, const std::string& name, const std::string& key,
-                         const std::string& what) {
+                         std::vector<Problem>& problems) {
   std::vector<std::string> names;
   for (const auto& o : vessel.openings) {
     if (o.name == name) return o.face;
     names.push_back(o.name);
   }
-  throw InputError("post." + key, fmt::format("the lumen has no opening '{}' {}", name, what),
-                   "use one of: " + mesh::list_names(names));
+  problems.push_back(
+      {"post." + key, fmt::format("the lumen has no opening '{}'", name), "use one of: " + mesh::list_names(names)});
+  return 0;
+}
+
+void check_regions(const PostSettings& settings, const mesh::MeshData& data, std::vector<Problem>& problems) {
+  if (!settings.lumens) return;
+  std::vector<std::string> known;
+  for (const auto& region : data.regions)
+    if (region.kind == RegionKind::wall) known.push_back(region.name);
+  const auto look_up = [&](const std::string& key, const std::vector<std::string>& names) {
+    for (const auto& name : names)
+      if (!has_wall_region(data, name))
+        problems.push_back({"post.lumens." + key, fmt::format("the wall has no region '{}'", name),
+                            "use one of: " + mesh::list_names(known)});
+  };
+  look_up("true_lumen", settings.lumens->true_lumen);
+  look_up("false_lumen", settings.lumens->false_lumen);
+}
+
+/// Faces and regions that the settings name. Throws InputError with all that the mesh does not have.
+void find_ends(const PostSettings& settings, const mesh::MeshData& data, Vessel& vessel) {
+  std::vector<Problem> problems;
+  vessel.inlet = opening_face(vessel, settings.inlet, "inlet", problems);
+  if (settings.end) vessel.end = opening_face(vessel, *settings.end, "end", problems);
+  check_regions(settings, data, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (!settings.end) vessel.end = farthest_opening(data, vessel);
+  if (vessel.end == vessel.inlet)
+    throw InputError("post.end", "is the inlet", "name the opening at the other end of the aorta");
 }
 
 /// A nodal field of the distributed mesh as a whole on all ranks, in the order of MeshData.
@@ -77,15 +106,39 @@ std::optional<frames::LumenWalls> lumen_walls(const Case& c, const PostSettings&
   return std::nullopt;
 }
 
-/// 0 at the inlet, 1 at the end, no flux elsewhere: branches hold the value that it has where they leave.
+frames::Domain domain_of(const Case& c) {
+  return c.meshes.interface ? frames::Domain::lumen_and_wall : frames::Domain::lumen;
+}
+
+void prescribe(const mesh::DistributedMesh& mesh, frames::Domain domain, const std::string& face, double value,
+               std::vector<double>& at_nodes) {
+  for (const auto& t : mesh.face(face).triangles)
+    for (const auto node : t) at_nodes[static_cast<std::size_t>(frames::carrier(mesh, domain, node))] = value;
+}
+
+/// 0 at the inlet, one value and unit flux on average at each other opening, so that surfaces of one value cross
+/// branches as they cross the aorta.
 std::vector<double> potential_along(const Case& c, const mesh::MeshData& data, const mesh::DistributedMesh& mesh,
-                                    std::size_t inlet, std::size_t end) {
-  const auto domain = c.meshes.interface ? frames::Domain::lumen_and_wall : frames::Domain::lumen;
+                                    const Vessel& vessel) {
   frames::LaplaceConditions conditions(mesh);
-  for (const auto& [face, value] : {std::pair{inlet, 0.0}, {end, 1.0}})
-    for (const auto& t : mesh.face(data.faces[face].name).triangles)
-      for (const auto node : t) conditions.value[static_cast<std::size_t>(frames::carrier(mesh, domain, node))] = value;
-  return everywhere(mesh, frames::solve_laplace(mesh, domain, conditions, "Stations along the aorta").phi);
+  for (const auto& opening : vessel.openings) {
+    if (opening.face == vessel.inlet) continue;
+    prescribe(mesh, domain_of(c), opening.name, static_cast<double>(conditions.flux.size()), conditions.group);
+    double area = 0;
+    for (const auto& t : data.faces[opening.face].triangles) area += norm(mesh::area_vector(data.points, t));
+    conditions.flux.push_back(area);
+  }
+  prescribe(mesh, domain_of(c), data.faces[vessel.inlet].name, 0, conditions.value);
+  return everywhere(mesh, frames::solve_laplace(mesh, domain_of(c), conditions, "Stations along the aorta").phi);
+}
+
+/// 0 at the inlet, 1 at the end, no flux elsewhere: a branch holds the value that it has where it leaves.
+std::vector<double> potential_towards_end(const Case& c, const mesh::MeshData& data, const mesh::DistributedMesh& mesh,
+                                          const Vessel& vessel) {
+  frames::LaplaceConditions conditions(mesh);
+  prescribe(mesh, domain_of(c), data.faces[vessel.inlet].name, 0, conditions.value);
+  prescribe(mesh, domain_of(c), data.faces[vessel.end].name, 1, conditions.value);
+  return everywhere(mesh, frames::solve_laplace(mesh, domain_of(c), conditions, "The way to the end of the aorta").phi);
 }
 
 /// Connected pieces of the surface on which `side` is zero, without those that a rounding of the surface leaves.
@@ -154,12 +207,11 @@ Vessel make_vessel(const Case& c, const PostSettings& settings, const mesh::Mesh
     return vessel;
   }
   sort_faces(c, data, vessel);
-  vessel.inlet = opening_face(vessel, settings.inlet, "inlet", "for the blood to enter");
-  vessel.end = settings.end ? opening_face(vessel, *settings.end, "end", "for the aorta to end")
-                            : farthest_opening(data, vessel);
+  find_ends(settings, data, vessel);
   const auto walls = lumen_walls(c, settings, data, vessel);
   const auto mesh = mesh::distribute(data, comm);
-  vessel.along = potential_along(c, data, mesh, vessel.inlet, vessel.end);
+  vessel.along = potential_along(c, data, mesh, vessel);
+  vessel.towards_end = potential_towards_end(c, data, mesh, vessel);
   if (walls) {
     vessel.side = everywhere(mesh, frames::lumen_sides(mesh, *walls).phi);
     const auto* lumen = lumen_region(data);

@@ -48,8 +48,9 @@ struct Vessel {
   std::vector<LumenOpening> openings;
   std::vector<std::array<std::int64_t, 3>> inside;  ///< triangles at which the flow sticks to the wall
   std::vector<double> side;  ///< of each node: > 0 in the true lumen, else false; empty where lumens are not told apart
-  std::vector<double> along;       ///< of each node: longitudinal potential; empty without a lumen
-  std::size_t inlet = 0, end = 0;  ///< faces of MeshData where the centreline begins and ends
+  std::vector<double> along;        ///< of each node: potential that rises towards all ends; empty without a lumen
+  std::vector<double> towards_end;  ///< of each node: potential that rises towards `end` alone
+  std::size_t inlet = 0, end = 0;   ///< faces of MeshData where the centreline begins and ends
   std::vector<Station> stations;
   std::vector<Tear> tears;          ///< by their distance from the inlet
   std::vector<double> false_share;  ///< of each element of the lumen region, in its order; empty as `side`
