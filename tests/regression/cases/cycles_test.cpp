@@ -63,7 +63,9 @@ TEST(Cycles, EndWhenTheyRepeatThemselves) {
   stages::RunRequest again;
   again.restart = true;
   const std::string more = run(file, again);
-  if (parallel::rank(MPI_COMM_WORLD) == 0) EXPECT_NE(more.find("the run is periodic"), std::string::npos) << more;
+  if (parallel::rank(MPI_COMM_WORLD) == 0) {
+    EXPECT_NE(more.find("the run is periodic"), std::string::npos) << more;
+  }
 }
 
 TEST(Cycles, RestartGoesOnBitForBit) {
@@ -76,7 +78,9 @@ TEST(Cycles, RestartGoesOnBitForBit) {
   stages::RunRequest request;
   request.directory = folder.path() / "whole";
   const std::string printed = run(file, request);
-  if (parallel::rank(MPI_COMM_WORLD) == 0) EXPECT_NE(printed.find("not yet periodic"), std::string::npos) << printed;
+  if (parallel::rank(MPI_COMM_WORLD) == 0) {
+    EXPECT_NE(printed.find("not yet periodic"), std::string::npos) << printed;
+  }
   request.directory = folder.path() / "parts";
   for (const int until : {70, 100}) {
     request.until = until;
@@ -174,7 +178,7 @@ TEST(AdaptiveSteps, SaveStepsWhereNothingHappens) {
   };
   const auto [fixed_error, fixed_steps] = measure("fixed", "step: 5 ms, steps: 200");
   const auto [error, steps] =
-      measure("adaptive", "step: 100 ms, steps: 10, adaptive: {tolerance: 5e-3, smallest: 0.5 ms}");
+      measure("adaptive", "step: 50 ms, steps: 20, adaptive: {tolerance: 5e-3, smallest: 0.5 ms}");
   // The error of fixed steps falls with their square.
   const double as_good = fixed_steps * std::sqrt(fixed_error / error);
   if (parallel::rank(MPI_COMM_WORLD) == 0)

@@ -33,7 +33,7 @@ std::string rigid_case(const std::string& outlets = asked) {
          "}}\n"
          "fluid: {density: 1.06 g/cm^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\nboundary:\n" +
          inlet + "  lumen_wall: no_slip\n" + outlets +
-         "time: {step: 8 ms, steps: 300}\noutput: {every: 100, checkpoint_every: 100}\n";
+         "time: {step: 8 ms, steps: 200}\noutput: {every: 100, checkpoint_every: 100}\n";
 }
 
 std::string compliant_case() {

@@ -51,6 +51,15 @@ Complex inlet_impedance(const stages::Vessel& vessel, const std::vector<bc::Rcr>
   return 1.0 / admittance;
 }
 
+TEST(Twin, TotalsAreSharedOut) {
+  const auto o = stages::share_out(two_outlets(), totals);
+  EXPECT_NEAR(1 / (1 / (o[0].proximal + o[0].distal) + 1 / (o[1].proximal + o[1].distal)), totals.resistance, 1e-6);
+  EXPECT_NEAR(o[0].capacitance + o[1].capacitance, totals.compliance, 1e-20);
+  EXPECT_NEAR((o[1].proximal + o[1].distal) / (o[0].proximal + o[0].distal), 0.3 / 0.7, 1e-12);
+  EXPECT_NEAR(o[1].capacitance / o[0].capacitance, 0.7 / 0.3, 1e-12);
+  EXPECT_NEAR(o[0].distal / (o[0].proximal + o[0].distal), 0.9, 1e-12);
+}
+
 TEST(Twin, PeriodicStateIsThatOfTheImpedances) {
   for (const auto& vessel : {stages::Vessel{0, {{0, 0}, {0, 0}}}, soft}) {
     const auto outlets = stages::share_out(two_outlets(), totals);

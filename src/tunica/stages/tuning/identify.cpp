@@ -98,8 +98,11 @@ Vessel identify(const Measured& run, bool rigid) {
   return vessel;
 }
 
-TwinState start_of(const Measured& run, const std::vector<double>& stored) {
+TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<double>& stored) {
   TwinState start{run.times.front(), run.inlet_pressure.front(), {}, stored};
+  if (vessel.compliance > 0)
+    start.pressure = average(run, run.inlet_pressure, onset) +
+                     (run.lumen_volume.front() - average(run, run.lumen_volume, onset)) / vessel.compliance;
   for (const auto& flow : run.outlet_flow) start.flows.push_back(flow.front());
   return start;
 }

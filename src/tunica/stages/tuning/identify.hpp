@@ -26,8 +26,10 @@ Measured read_measured(const std::filesystem::path& results, const Case& c, cons
 /// and its rate, both by least squares and not below zero, (7.4). At least five steps.
 Vessel identify(const Measured& run, bool rigid);
 
-/// State of the twin at the first step of a run whose outlets started from `stored` [Pa].
-TwinState start_of(const Measured& run, const std::vector<double>& stored);
+/// State of the twin at the first step of a run whose outlets started from `stored` [Pa]. The pressure of a compliant
+/// vessel is the one that belongs to its volume: waves have not yet passed through it, and the inlet does not speak for
+/// the whole.
+TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<double>& stored);
 
 /// Time after which a run answers to its vessel, not to its sudden start [s].
 double settled(const Measured& run);

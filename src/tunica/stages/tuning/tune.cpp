@@ -287,7 +287,7 @@ void Tuning::look_at_cycle(int number, const Plan& plan) {
     cycle.run = read_measured(folder() / fmt::format("cycle_{}", number), case_.settings, inlet_, period_);
     cycle.vessel = identify(cycle.run, rigid());
     const Twin twin(cycle.vessel, share_out(settings(), plan.totals), *inflow_, period_);
-    cycle.first = twin.first_cycle(start_of(cycle.run, plan.stored));
+    cycle.first = twin.first_cycle(start_of(cycle.run, cycle.vessel, plan.stored));
     cycle.periodic = twin.periodic_cycle();
     cycle.fractions = mean_flows(cycle.run);
     double sum = 0;
