@@ -32,7 +32,9 @@ int main(int argc, char** argv) {
   tunica::app::add_mesh(app);
   tunica::app::add_picture(app);
   tunica::app::add_plot(app);
+  tunica::app::add_post(app);
   tunica::app::add_prestress(app);
+  tunica::app::add_report(app);
   tunica::app::add_run(app);
   tunica::app::add_schema(app);
   tunica::app::add_tune(app);

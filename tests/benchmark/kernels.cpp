@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tunica/assembly/linear_solver.hpp"
-#include "tunica/coupling/element_loops.hpp"
+#include "tunica/coupling/lumen_groups.hpp"
 #include "tunica/coupling/wall_model.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/petsc.hpp"
@@ -24,7 +24,7 @@ struct Setting {
   assembly::BlockPattern pattern;
   assembly::BlockMatrix matrix;
   std::vector<double> reference, position, velocity_pressure, acceleration, mesh_velocity, displacement, residual;
-  assembly::ElementBatches lumen;
+  coupling::LumenGroup lumen, lumen_beside_wall;
   coupling::WallModel wall_model;
   coupling::WallModel::Group wall, wall_split;
 
@@ -61,20 +61,27 @@ struct Setting {
     const int w = static_cast<int>(isa);
     for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
       if (mesh.regions[r].kind == mesh::RegionKind::lumen)
-        lumen = make_batches(mesh, mesh.regions[r], pattern, w, false);
+        for (auto& group : coupling::lumen_groups(mesh, mesh.regions[r], beside_interface(), pattern, w))
+          (group.moves.empty() ? lumen : lumen_beside_wall) = std::move(group);
       else
         for (auto& group : wall_model.groups(mesh, r, pattern, w))
           (group.batches.split ? wall_split : wall) = std::move(group);
     }
   }
 
+  std::vector<char> beside_interface() const {
+    std::vector<char> follows(static_cast<std::size_t>(mesh.nodes()), 0);
+    for (std::int32_t i = 0; i < mesh.nodes(); ++i)
+      if (mesh.host[i] != i) follows[static_cast<std::size_t>(mesh.host[i])] = 1;
+    return follows;
+  }
   coupling::FieldsView fields() const {
     return {reference.data(),    position.data(),      velocity_pressure.data(),
             acceleration.data(), mesh_velocity.data(), displacement.data()};
   }
-  void run_fluid(bool tangent) {
+  void run_fluid(const coupling::LumenGroup& group, bool tangent) {
     const fluid::Parameters parameters{.density = 1060, .viscosity = fluid::Newtonian{4e-3}};
-    coupling::element_loops(isa).fluid(coupling::BatchView(lumen), fields(), parameters, {1e-4, 1e4, 0.67},
+    coupling::element_loops(isa).fluid(group.view(), fields(), parameters, {1e-4, 1e4, 0.67}, {1e-4, 0.67},
                                        {residual.data(), tangent ? matrix.blocks.data()->a : nullptr});
   }
   void run_wall(const coupling::WallModel::Group& group, bool tangent, bool mixed) {
@@ -85,7 +92,8 @@ struct Setting {
   }
   void assemble() {
     matrix.set_zero();
-    run_fluid(true);
+    run_fluid(lumen, true);
+    run_fluid(lumen_beside_wall, true);
     run_wall(wall, true, true);
     run_wall(wall_split, true, true);
     // Twin nodes have no motion of their own.
@@ -112,12 +120,16 @@ void bytes(benchmark::State& state, double bytes_per_iteration) {
 }
 
 void fluid_tangent(benchmark::State& state) {
-  for (auto _ : state) setting().run_fluid(true);
-  per_element(state, setting().lumen.elements);
+  for (auto _ : state) setting().run_fluid(setting().lumen, true);
+  per_element(state, setting().lumen.batches.elements);
+}
+void fluid_tangent_beside_wall(benchmark::State& state) {
+  for (auto _ : state) setting().run_fluid(setting().lumen_beside_wall, true);
+  per_element(state, setting().lumen_beside_wall.batches.elements);
 }
 void fluid_residual(benchmark::State& state) {
-  for (auto _ : state) setting().run_fluid(false);
-  per_element(state, setting().lumen.elements);
+  for (auto _ : state) setting().run_fluid(setting().lumen, false);
+  per_element(state, setting().lumen.batches.elements);
 }
 void wall_mixed_tangent(benchmark::State& state) {
   for (auto _ : state) setting().run_wall(setting().wall, true, true);
@@ -176,6 +188,7 @@ void preconditioner_apply(benchmark::State& state) {
 
 BENCHMARK(stream_triad)->Unit(benchmark::kMillisecond);
 BENCHMARK(fluid_residual)->Unit(benchmark::kMillisecond);
+BENCHMARK(fluid_tangent_beside_wall)->Unit(benchmark::kMillisecond);
 BENCHMARK(fluid_tangent)->Unit(benchmark::kMillisecond);
 BENCHMARK(wall_mixed_residual)->Unit(benchmark::kMillisecond);
 BENCHMARK(wall_mixed_tangent)->Unit(benchmark::kMillisecond);
@@ -193,7 +206,8 @@ int main(int argc, char** argv) {
     const tunica::parallel::Session session;
     benchmark::Initialize(&argc, argv);
     std::printf("instruction set %s, %d nodes, %d lumen and %d wall elements (%d of them along the interface)\n",
-                tunica::assembly::name(setting().isa), setting().mesh.nodes(), setting().lumen.elements,
+                tunica::assembly::name(setting().isa), setting().mesh.nodes(),
+                setting().lumen.batches.elements + setting().lumen_beside_wall.batches.elements,
                 setting().wall.batches.elements + setting().wall_split.batches.elements,
                 setting().wall_split.batches.elements);
     benchmark::RunSpecifiedBenchmarks();

@@ -7,7 +7,7 @@
 #include "tunica/assembly/element_batches.hpp"
 #include "tunica/assembly/isa.hpp"
 #include "tunica/fluid/parameters.hpp"
-#include "tunica/fluid/rbvms.hpp"
+#include "tunica/fluid/rbvms_shape.hpp"
 #include "tunica/wall/blended_law.hpp"
 #include "tunica/wall/element.hpp"
 
@@ -45,6 +45,12 @@ struct BatchView {
         slots(b.slots.data()) {}
 };
 
+/// Lumen elements, none or each of which has nodes that the wall takes along.
+struct LumenGroupView {
+  BatchView batches;
+  const double* moves = nullptr;  ///< 1 for such nodes, else 0 [batch][4][lane]; null where there are none
+};
+
 /// Wall elements that are made of the same laws.
 struct WallGroupView {
   BatchView batches;
@@ -64,8 +70,8 @@ struct WallElementSettings {
   double stabilisation;
 };
 
-using FluidLoop = void (*)(const BatchView&, const FieldsView&, const fluid::Parameters&,
-                           const fluid::TimeCoefficients&, const LoopTarget&);
+using FluidLoop = void (*)(const LumenGroupView&, const FieldsView&, const fluid::Parameters&,
+                           const fluid::TimeCoefficients&, const fluid::MotionCoefficients&, const LoopTarget&);
 using WallLoop = void (*)(const WallGroupView&, const FieldsView&, const WallElementSettings&,
                           const wall::Coefficients&, const LoopTarget&);
 

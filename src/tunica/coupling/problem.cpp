@@ -69,10 +69,7 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
   const int width = static_cast<int>(isa_);
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& region = mesh.regions[r];
-    if (region.kind == mesh::RegionKind::lumen) {
-      lumen_batches_.push_back(make_batches(mesh, region, pattern_, width, false));
-      continue;
-    }
+    if (region.kind == mesh::RegionKind::lumen) continue;
     auto groups = wall_->groups(mesh, r, pattern_, width);
     std::move(groups.begin(), groups.end(), std::back_inserter(wall_groups_));
     for (const auto& element : region.elements)
@@ -82,6 +79,11 @@ Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
   std::vector<double> follows(follows_wall_.begin(), follows_wall_.end());
   mesh.halo.update(follows, 1);
   std::transform(follows.begin(), follows.end(), follows_wall_.begin(), [](double f) { return f > 0.5 ? 1 : 0; });
+  for (const auto& region : mesh.regions) {
+    if (region.kind != mesh::RegionKind::lumen) continue;
+    auto groups = lumen_groups(mesh, region, follows_wall_, pattern_, width);
+    std::move(groups.begin(), groups.end(), std::back_inserter(lumen_groups_));
+  }
   negligible_ = negligible_forces();
   if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
 
@@ -199,10 +201,10 @@ int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& sc
 
 void Problem::add_lumen(const Instant& instant, std::span<double> residual, float* blocks) const {
   const ElementLoops loops = element_loops(isa_);
-  for (const auto& batches : lumen_batches_) {
+  for (const auto& group : lumen_groups_) {
     const TimeScheme& s = *instant.scheme;
-    loops.fluid(BatchView(batches), fields(), *input_.fluid,
-                {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, {residual.data(), blocks});
+    loops.fluid(group.view(), fields(), *input_.fluid, {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()},
+                {s.displacement_per_unknown(), s.velocity_per_unknown()}, {residual.data(), blocks});
   }
 }
 

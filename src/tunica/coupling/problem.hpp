@@ -10,6 +10,7 @@
 #include "tunica/assembly/linear_solver.hpp"
 #include "tunica/assembly/time_scheme.hpp"
 #include "tunica/coupling/boundaries.hpp"
+#include "tunica/coupling/lumen_groups.hpp"
 #include "tunica/coupling/mesh_motion.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/state.hpp"
@@ -137,7 +138,7 @@ class Problem {
   assembly::Isa isa_;
   assembly::BlockPattern pattern_;
   Boundaries boundaries_;
-  std::vector<assembly::ElementBatches> lumen_batches_;
+  std::vector<LumenGroup> lumen_groups_;
   std::optional<WallModel> wall_;
   std::vector<WallModel::Group> wall_groups_;
   std::vector<double> negligible_;  ///< forces whose norm is noise, [owned node][4]; empty without a wall

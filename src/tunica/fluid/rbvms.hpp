@@ -198,36 +198,55 @@ TUNICA_INLINE Tau<T> stabilisation(const Flow<T>& f, double dt, const Parameters
   return tau;
 }
 
-/// Residual of eq (2.4) for given stabilisation parameters: r[a][0..2] momentum [N], r[a][3] continuity [m^3/s].
+/// Integrals over the element that the residual is made of, for given stabilisation parameters.
 template <class T>
-TUNICA_INLINE void residual_with(const Flow<T>& f, const Tau<T>& tau, double rho, fe::ElementVector<T>& r) {
+struct Integrals {
+  Vec3<T> v_prime[4];    ///< v' at the points [m/s]
+  Vec3<T> convected[4];  ///< v'.grad v at the points [m/s^2]
+  Vec3<T> force[4];      ///< rho (v. + A.grad v) at the points, times the weight [N]
+  Mat3<T> stress;        ///< of what stands with grad w [N m]
+  T sum_tau_c;           ///< sum of tau_C over the points [Pa s]
+};
+
+template <class T>
+TUNICA_INLINE Integrals<T> integrals(const Flow<T>& f, const Tau<T>& tau, double rho) {
+  Integrals<T> s;
   const T weight = T(0.25) * f.shape.volume;
-  Mat3<T> stress = detail::zero_matrix<T>();  // integral of what stands with grad w, without the viscous and p parts
-  Vec3<T> force[4];                           // rho (v. + A.grad v) times the weight
-  Vec3<T> sum_v_prime = detail::zero_vector<T>();
-  T sum_tau_c(0.0);
+  s.stress = detail::zero_matrix<T>();
+  s.sum_tau_c = T(0.0);
   for (int q = 0; q < 4; ++q) {
-    const Vec3<T> v_prime = (-tau.m[q]) * momentum_residual(f, rho, q);
-    const Vec3<T> convected = f.gradient * v_prime;  // v'.grad v
-    const Vec3<T> minus_flux = T(-rho) * (f.a[q] + v_prime);
-    detail::add_outer(stress, v_prime, minus_flux);
-    detail::add_outer(stress, tau.b[q] * convected, v_prime);
-    force[q] = (weight * T(rho)) * (f.inertia[q] + convected);
-    sum_v_prime = sum_v_prime + v_prime;
-    sum_tau_c += tau.c[q];
+    s.v_prime[q] = (-tau.m[q]) * momentum_residual(f, rho, q);
+    s.convected[q] = f.gradient * s.v_prime[q];
+    const Vec3<T> minus_flux = T(-rho) * (f.a[q] + s.v_prime[q]);
+    detail::add_outer(s.stress, s.v_prime[q], minus_flux);
+    detail::add_outer(s.stress, tau.b[q] * s.convected[q], s.v_prime[q]);
+    s.force[q] = (weight * T(rho)) * (f.inertia[q] + s.convected[q]);
+    s.sum_tau_c += tau.c[q];
   }
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      stress(i, j) = weight * stress(i, j) + f.shape.volume * f.mu * (f.gradient(i, j) + f.gradient(j, i));
-  const T pressure = f.shape.volume * f.mean_pressure - weight * sum_tau_c * f.divergence;  // p + p'
-  for (int i = 0; i < 3; ++i) stress(i, i) -= pressure;
+      s.stress(i, j) = weight * s.stress(i, j) + f.shape.volume * f.mu * (f.gradient(i, j) + f.gradient(j, i));
+  const T pressure = f.shape.volume * f.mean_pressure - weight * s.sum_tau_c * f.divergence;  // p + p'
+  for (int i = 0; i < 3; ++i) s.stress(i, i) -= pressure;
+  return s;
+}
 
-  const Vec3<T> sum_force = detail::sum4(force);
+/// Residual of eq (2.4) from them: r[a][0..2] momentum [N], r[a][3] continuity [m^3/s].
+template <class T>
+TUNICA_INLINE void residual_with(const Flow<T>& f, const Integrals<T>& s, fe::ElementVector<T>& r) {
+  const T weight = T(0.25) * f.shape.volume;
+  const Vec3<T> sum_force = detail::sum4(s.force), sum_v_prime = detail::sum4(s.v_prime);
   for (int a = 0; a < 4; ++a) {
-    const Vec3<T> row = detail::blend(sum_force, force[a]) + stress * f.shape.dN[a];
+    const Vec3<T> row = detail::blend(sum_force, s.force[a]) + s.stress * f.shape.dN[a];
     for (int i = 0; i < 3; ++i) r.r[a][i] = row[i];
     r.r[a][3] = weight * (f.divergence - dot(f.shape.dN[a], sum_v_prime));
   }
+}
+
+/// The same for given stabilisation parameters.
+template <class T>
+TUNICA_INLINE void residual_with(const Flow<T>& f, const Tau<T>& tau, double rho, fe::ElementVector<T>& r) {
+  residual_with(f, integrals(f, tau, rho), r);
 }
 
 /// Residual of an element. `law` is the alternative that parameters.viscosity holds (visit the variant once, outside

@@ -1,7 +1,8 @@
 // Tangent of the flow kernel (rbvms.hpp): derivative of the element residual with respect to (v_{n+1}, p_{n+1}).
 //
 // It is complete but for two choices: tau_M, tau_C and tau_B are held fixed, and so is the mesh (position, mesh
-// velocity). With L = grad v, c the coefficient of the velocity, m that of the acceleration, W = L v' and
+// velocity); rbvms_shape.hpp adds what the motion of the wall brings. With L = grad v, c the coefficient of the
+// velocity, m that of the acceleration, W = L v' and
 //   T_b = m N_b + c a.grad N_b,
 //   dv'/dv_b = -tau_M rho (T_b I + c N_b L),   dv'/dp_b = -tau_M grad N_b,
 // each 3 x 3 velocity block is

@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "tunica/base/error.hpp"
-#include "tunica/frames/laplace.hpp"
 #include "tunica/mesh/element_shape.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -61,9 +60,13 @@ LaplaceConditions conditions_of(const mesh::DistributedMesh& mesh, const std::ve
 
 }  // namespace
 
-std::vector<Vec3<double>> tear_points(const mesh::DistributedMesh& mesh, const LumenWalls& walls) {
+LaplaceSolution lumen_sides(const mesh::DistributedMesh& mesh, const LumenWalls& walls) {
   const auto kinds = parallel::agree(mesh.comm, [&] { return kinds_of_regions(mesh, walls); });
-  const auto solution = solve_laplace(mesh, Domain::lumen, conditions_of(mesh, kinds), "Search for the tears");
+  return solve_laplace(mesh, Domain::lumen, conditions_of(mesh, kinds), "Search for the tears");
+}
+
+std::vector<Vec3<double>> tear_points(const mesh::DistributedMesh& mesh, const LumenWalls& walls) {
+  const auto solution = lumen_sides(mesh, walls);
   std::vector<Vec3<double>> mine;
   for (const auto& region : mesh.regions)
     if (region.kind == mesh::RegionKind::lumen)

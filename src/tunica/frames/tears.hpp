@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tunica/frames/element_graph.hpp"
+#include "tunica/frames/laplace.hpp"
 
 namespace tunica::frames {
 
@@ -13,10 +14,14 @@ struct LumenWalls {
   std::vector<std::string> true_lumen, false_lumen;
 };
 
-/// Centroids [m] of the lumen elements in which a harmonic function changes its sign that is 1 on the walls of the true
-/// and -1 on those of the false lumen, with no flux through the flap: they lie across the tears. All of them on every
-/// rank, in an order that depends on the ranks. Throws InputError when a region does not exist, when no interface node
-/// touches either kind of wall, or when there is no such element. Collective.
+/// The harmonic function in the lumen that is 1 on the walls of the true and -1 on those of the false lumen, with no
+/// flux through the flap and elsewhere. Throws InputError when a region does not exist or no interface node touches
+/// either kind of wall. Collective.
+LaplaceSolution lumen_sides(const mesh::DistributedMesh& mesh, const LumenWalls& walls);
+
+/// Centroids [m] of the lumen elements in which `lumen_sides` changes its sign: they lie across the tears. All of
+/// them on every rank, in an order that depends on the ranks. Throws as lumen_sides, and InputError when there is no
+/// such element. Collective.
 std::vector<Vec3<double>> tear_points(const mesh::DistributedMesh& mesh, const LumenWalls& walls);
 
 /// Distance of the centroid of each owned element to the nearest of `points` [m].

@@ -171,6 +171,21 @@ struct Part {
   const char* remedy;  ///< when it is wanted and missing
 };
 
+/// What the stages before the run give is not given besides.
+void check_chain(const Case& c, Problems& problems) {
+  if (c.mesh.has_value() == c.meshes.given())
+    problems.add(c.mesh ? "meshes" : "", c.mesh ? "is given, and `mesh` too" : "`meshes` is missing: no mesh is given",
+                 "give `meshes`, which are there, or `mesh`, which is made first");
+  if (c.mesh && !(c.solves_fluid() && c.solves_wall()))
+    problems.add("mesh", "makes lumen and wall, but the analysis is of one of them",
+                 "choose `analysis: fsi`, or make the mesh by `tunica mesh` and give what is wanted of it as `meshes`");
+  if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
+  if (!c.is_chain() || !c.prestress) return;
+  const char* remedy = "remove it: that of the stage `prestress` is taken";
+  if (c.wall && c.wall->prestress) problems.add("wall.prestress", "is given, and the section `prestress` too", remedy);
+  if (c.start) problems.add("start", "is given, and the section `prestress` too", remedy);
+}
+
 void check_case(const Case& c, Problems& problems) {
   const bool coupled = c.solves_fluid() && c.solves_wall(),
              static_wall = std::holds_alternative<StaticWall>(c.analysis);
@@ -182,9 +197,9 @@ void check_case(const Case& c, Problems& problems) {
       {"outlets", c.outlets && c.solves_fluid(), c.outlets.has_value(), ""},
       {"mesh_motion", coupled, coupled || c.mesh_motion.has_value(), ""},
       {"time", !static_wall, c.time.has_value(), "add `time: {step: 1 ms, steps: 100}`"},
-      {"meshes.lumen", c.solves_fluid(), c.meshes.has_lumen(), "give a mesh of the lumen"},
-      {"meshes.wall", c.solves_wall(), c.meshes.has_wall(), "give a mesh of the wall"},
-      {"meshes.interface", coupled, c.meshes.interface.has_value(),
+      {"meshes.lumen", c.solves_fluid(), c.mesh ? c.solves_fluid() : c.meshes.has_lumen(), "give a mesh of the lumen"},
+      {"meshes.wall", c.solves_wall(), c.mesh ? c.solves_wall() : c.meshes.has_wall(), "give a mesh of the wall"},
+      {"meshes.interface", coupled, c.mesh ? coupled : c.meshes.interface.has_value(),
        "name the surface that both have in common: `interface: {lumen: <face>, wall: <face>}`"},
   };
   for (const Part& part : parts) {
@@ -194,6 +209,7 @@ void check_case(const Case& c, Problems& problems) {
       problems.add(part.key, fmt::format("is given, but `analysis: {}` does not use it", analysis),
                    "remove it, or choose another analysis");
   }
+  check_chain(c, problems);
   if (c.prestress && c.solves_wall()) {
     if (coupled && !c.prestress->flow)
       problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",
@@ -255,7 +271,7 @@ void place_outlets(Case& c, std::vector<Problem>& warnings) {
 
 config::Parsed<Case> parse(const std::string& yaml, const std::filesystem::path& file, bool check_files) {
   const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = check_files};
-  config::Parsed<Case> parsed = config::parse_text(Case::schema(), yaml, origin);
+  config::Parsed<Case> parsed = config::parse_document(Case::schema(), case_document(yaml, file), origin);
   Case& c = parsed.value;
   if (c.solves_fluid() && c.solves_wall() && !c.mesh_motion) c.mesh_motion.emplace();
   if (c.outlets) place_outlets(c, parsed.warnings);
@@ -329,7 +345,13 @@ Schema<Case> Case::schema() {
       .text("title", &Case::title, "Free text for logs and reports")
       .by_default()
       .section("analysis", &Case::analysis, analysis_schema(), "What is computed")
-      .section("meshes", &Case::meshes, MeshSettings::schema(), "Geometry")
+      .section("mesh", &Case::mesh, meshing::MeshCase::schema(),
+               "What `tunica run` meshes first, as in the file of `tunica mesh`; in place of `meshes`")
+      .section("meshes", &Case::meshes, MeshSettings::schema(), "Meshes that are there; in place of `mesh`")
+      .optional()
+      .section("fibres", &Case::fibres, fibres::FibreSettings::schema(),
+               "Material directions that `tunica run` makes first, as in the file of `tunica fibres`; inlet, outer and "
+               "tears may be left out after `mesh`")
       .section("fluid", &Case::fluid, fluid::Parameters::schema(), "Blood; for `fsi` and `flow`")
       .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")
       .section("mesh_motion", &Case::mesh_motion, ale::Parameters::schema(),
@@ -342,6 +364,9 @@ Schema<Case> Case::schema() {
       .section("prestress", &Case::prestress, PrestressCase::schema(), "What `tunica prestress` shall find, and how")
       .section("outlets", &Case::outlets, TuningCase::schema(),
                "Outlets by pressures and shares of the flow, which `tunica tune` finds")
+      .section("post", &Case::post, PostSettings::schema(),
+               "What `tunica post` makes of the results; with its defaults when left out")
+      .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
       .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
       .by_default()
       .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")
@@ -349,6 +374,13 @@ Schema<Case> Case::schema() {
       .section("output", &Case::output, OutputSettings::schema(), "Results")
       .by_default()
       .check(check_case);
+}
+
+config::Document case_document(const std::string& yaml, const std::filesystem::path& file) {
+  config::Document document(yaml, file.string());
+  if (document.has("fibres") && document.has("wall") && !document.has("wall.fibre_frame"))
+    document.set("wall.fibre_frame", config::Document("mesh: {e1: e1, e2: e2}"));
+  return document;
 }
 
 config::Parsed<Case> read_case(const std::filesystem::path& file) {

@@ -27,6 +27,11 @@ std::array<std::int32_t, 3> sorted(std::array<std::int32_t, 3> nodes) {
   return nodes;
 }
 
+const wall::LawParameters& material_of(const wall::Parameters& wall, const std::string& region) {
+  const auto own = wall.regions.find(region);
+  return own == wall.regions.end() ? wall.material : own->second.material;
+}
+
 }  // namespace
 
 OutputFields::OutputFields(const coupling::Problem& problem, const Case& c)
@@ -36,7 +41,10 @@ OutputFields::OutputFields(const coupling::Problem& problem, const Case& c)
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (regions[r].kind != RegionKind::wall) continue;
     const auto n = static_cast<std::size_t>(regions[r].owned_elements);
-    stress_.push_back({static_cast<std::int32_t>(r), std::vector<double>(n), std::vector<double>(n)});
+    auto& stress = stress_.emplace_back(
+        RegionStress{static_cast<std::int32_t>(r), std::vector<double>(n), std::vector<double>(n)});
+    stress.fibres = wall::mean_fibre_directions(material_of(*problem.input().wall, regions[r].name));
+    stress.fibre.assign(stress.fibres.size(), std::vector<double>(n));
   }
 }
 
@@ -103,10 +111,12 @@ void OutputFields::compute_wall_stress(const State& state) {
     const auto region = static_cast<std::size_t>(stress.region);
     for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
       const auto index = static_cast<std::int32_t>(e);
-      const auto sigma =
-          coupling::cauchy_stress(model, region, index, coupling::wall_element(mesh, model, state, region, index));
+      const auto element = coupling::wall_element(mesh, model, state, region, index);
+      const auto sigma = coupling::cauchy_stress(model, region, index, element);
       stress.von_mises[e] = wall::von_mises(sigma);
       stress.principal[e] = wall::principal_stresses(sigma)[0];
+      for (std::size_t f = 0; f < stress.fibres.size(); ++f)
+        stress.fibre[f][e] = wall::fibre_stress(element, sigma, stress.fibres[f]);
     }
   }
 }
@@ -162,6 +172,12 @@ void OutputFields::write(mesh::ResultsWriter& writer, std::int64_t step, double 
                      .components = 1,
                      .values = s.principal,
                      .factor = stress_factor});
+    for (std::size_t f = 0; f < s.fibre.size(); ++f)
+      cells.push_back({.name = fmt::format("stress along fibres {} [{}]", f + 1, units_.stress),
+                       .region = s.region,
+                       .components = 1,
+                       .values = s.fibre[f],
+                       .factor = stress_factor});
   }
   writer.write(step, time, nodal, cells);
 }

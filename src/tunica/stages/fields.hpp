@@ -13,8 +13,9 @@ namespace tunica::stages {
 
 /// Prepares a state for the ResultsWriter, in the units of the case:
 /// lumen: velocity, pressure, displacement (of the mesh, when it moves), wall shear stress (zero off the wall);
-/// wall: velocity (in dynamics), displacement, pressure (mixed element), and for each element the von Mises stress and
-/// the largest principal stress.
+/// wall: velocity (in dynamics), displacement, pressure (mixed element), and for each element the von Mises stress, the
+/// largest principal stress, and the Cauchy stress along the mean direction of each family of fibres that the law of
+/// its region has.
 class OutputFields {
  public:
   /// `problem` must outlive this.
@@ -41,6 +42,8 @@ class OutputFields {
   struct RegionStress {
     std::int32_t region;
     std::vector<double> von_mises, principal;  ///< of the owned elements, Pa
+    std::vector<Vec3<double>> fibres{};        ///< mean directions in the fibre frame
+    std::vector<std::vector<double>> fibre{};  ///< of each of them
   };
   std::vector<RegionStress> stress_;
 };

@@ -8,8 +8,8 @@ namespace tunica::stages {
 
 /// One curve. Points that are not finite (or not positive on a logarithmic axis) interrupt it.
 struct Series {
-  std::string name;  ///< in the legend; empty: not listed
-  std::vector<double> x, y;
+  std::string name{};  ///< in the legend; empty: not listed
+  std::vector<double> x{}, y{};
   bool line = true;
   bool markers = false;
   bool dashed = false;

@@ -488,6 +488,7 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
   });
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = parse_case(c.text, request.case_file);
+  name_faces(c.settings, c.mesh, comm);
   c.outlets = take_tuned_outlets(comm, c.settings);
   return run_case(c, request, comm, screen);
 }

@@ -1,5 +1,7 @@
 #include "tunica/wall/material.hpp"
 
+#include <cmath>
+
 namespace tunica::wall {
 
 namespace {
@@ -10,6 +12,16 @@ config::Schema<std::variant<P...>> schema_of(const std::variant<P...>*) {
   s.one_of();
   (s.alternative(P::schema()), ...);
   return s;
+}
+
+Vec3<double> in_plane(double angle) { return {{std::cos(angle), std::sin(angle), 0.0}}; }
+
+Vec3<double> mean_direction(const HgoParameters::Family& family) { return in_plane(family.mean_angle); }
+Vec3<double> mean_direction(const GohParameters::Family& family) { return in_plane(family.mean_angle); }
+Vec3<double> mean_direction(const dfd::Family& family) {
+  const auto density = family.density();
+  if (const auto* d = std::get_if<VonMises>(&density)) return d->mean_direction;
+  return in_plane(std::get<BivariateVonMises>(density).mean_angle);
 }
 
 }  // namespace
@@ -42,6 +54,17 @@ std::vector<std::string> notes(const Law& law) {
 bool is_anisotropic(const LawParameters& parameters) {
   return !std::holds_alternative<NeoHookeParameters>(parameters) &&
          !std::holds_alternative<MooneyRivlinParameters>(parameters);
+}
+
+std::vector<Vec3<double>> mean_fibre_directions(const LawParameters& parameters) {
+  std::vector<Vec3<double>> directions;
+  std::visit(
+      [&](const auto& p) {
+        if constexpr (requires { p.families; })
+          for (const auto& family : p.families) directions.push_back(mean_direction(family));
+      },
+      parameters);
+  return directions;
 }
 
 config::Schema<LawParameters> law_schema() { return schema_of(static_cast<const LawParameters*>(nullptr)); }

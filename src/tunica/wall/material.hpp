@@ -44,6 +44,9 @@ std::vector<std::string> notes(const Law& law);
 /// Does the law distinguish directions, so that it needs a fibre frame?
 bool is_anisotropic(const LawParameters& parameters);
 
+/// Mean direction of each family of fibres in the fibre frame, unit vectors; none for laws without families.
+std::vector<Vec3<double>> mean_fibre_directions(const LawParameters& parameters);
+
 config::Schema<LawParameters> law_schema();
 
 }  // namespace tunica::wall

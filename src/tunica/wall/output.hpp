@@ -103,6 +103,13 @@ TUNICA_INLINE Symmetric<T> prestress_cauchy_stress(const ElementState<T>& e, con
   return detail::push_forward(F, S0, determinant(F));
 }
 
+/// Cauchy stress along a fibre, m.sigma.m [Pa]: m is the direction M that the fibre has in the axes of the element's
+/// gradients, carried along by its motion.
+inline double fibre_stress(const ElementState<double>& e, const Symmetric<double>& sigma, const Vec3<double>& M) {
+  const Vec3<double> m = deformation_gradient(e) * M;
+  return dot(m, full(sigma) * m) / dot(m, m);
+}
+
 /// von Mises equivalent stress [Pa].
 template <class T>
 TUNICA_INLINE T von_mises(const Symmetric<T>& s) {

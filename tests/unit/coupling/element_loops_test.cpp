@@ -7,7 +7,8 @@
 
 #include "small_cases.hpp"
 #include "tunica/assembly/block_matrix.hpp"
-#include "tunica/fluid/rbvms_tangent.hpp"
+#include "tunica/coupling/lumen_groups.hpp"
+#include "tunica/fluid/rbvms_shape.hpp"
 
 namespace tunica::coupling {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using test::at;
 
 const fluid::TimeCoefficients fluid_time{1e-3, 1500.0, 0.7};
+const fluid::MotionCoefficients motion{4e-4, 0.7};
 const wall::Coefficients wall_coefficients{1500.0, 4e-4, 0.7 / 4e-4};
 
 // Sums over elements one by one, in double precision, with the sums of magnitudes as a measure of rounding.
@@ -49,18 +51,21 @@ Vec3<double> vector_at(const std::vector<double>& field, std::int32_t node) {
   return {{field[at(node)], field[at(node) + 1], field[at(node) + 2]}};
 }
 
-void add_fluid(NaiveSystem& system, const test::Fields& f, const std::array<std::int32_t, 4>& nodes) {
+void add_fluid(NaiveSystem& system, const test::Fields& f, const std::array<std::int32_t, 4>& nodes,
+               const std::vector<char>& follows_wall) {
   fluid::ElementState<double> state;
+  double moves[4];
   for (int a = 0; a < 4; ++a) {
     state.position[a] = vector_at(f.position, nodes[a]);
     state.velocity[a] = vector_at(f.velocity_pressure, nodes[a]);
     state.acceleration[a] = vector_at(f.acceleration, nodes[a]);
     state.mesh_velocity[a] = vector_at(f.mesh_velocity, nodes[a]);
     state.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
+    moves[a] = follows_wall[static_cast<std::size_t>(nodes[a])];
   }
   fe::ElementVector<double> r;
   fe::ElementMatrix<double> k;
-  fluid::tangent(state, fluid_time, test::blood(), fluid::Newtonian{4e-3}, r, k);
+  fluid::tangent_beside_wall(state, fluid_time, test::blood(), fluid::Newtonian{4e-3}, motion, moves, r, k);
   system.add(nodes, r, k);
 }
 
@@ -91,22 +96,28 @@ struct Loops : testing::TestWithParam<wall::Element> {
   test::Fields fields = test::random_fields(mesh);
   wall::Parameters wall = test::soft_wall(GetParam());
   WallModel model;
+  std::vector<char> follows_wall;
 
   // The last element is left out, so that the last batches have spare lanes.
-  Loops() : model((shorten(), mesh), wall) {}
+  Loops() : model((shorten(), mesh), wall), follows_wall(static_cast<std::size_t>(mesh.nodes())) {
+    for (std::int32_t i = 0; i < mesh.nodes(); ++i)
+      if (mesh.host[i] != i) follows_wall[static_cast<std::size_t>(mesh.host[i])] = 1;
+  }
 
   void shorten() {
     for (auto& region : mesh.regions) region.elements.pop_back();
   }
 
-  void run(assembly::Isa isa, std::vector<double>& residual, assembly::BlockMatrix* matrix, int& spare,
-           int& split) const {
+  void run(assembly::Isa isa, std::vector<double>& residual, assembly::BlockMatrix* matrix, int& spare, int& split,
+           int& beside_wall) const {
     const LoopTarget target{residual.data(), matrix == nullptr ? nullptr : matrix->blocks.data()->a};
     const int width = static_cast<int>(isa);
     for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
       if (mesh.regions[r].kind == mesh::RegionKind::lumen) {
-        const auto batches = assembly::make_batches(mesh, mesh.regions[r], pattern, width, false);
-        element_loops(isa).fluid(BatchView(batches), fields.view(), test::blood(), fluid_time, target);
+        for (const auto& group : lumen_groups(mesh, mesh.regions[r], follows_wall, pattern, width)) {
+          element_loops(isa).fluid(group.view(), fields.view(), test::blood(), fluid_time, motion, target);
+          beside_wall += group.moves.empty() ? 0 : group.batches.elements;
+        }
         continue;
       }
       for (const auto& group : model.groups(mesh, r, pattern, width)) {
@@ -124,17 +135,17 @@ TEST_P(Loops, AddUpToTheSumOverElementsForEveryInstructionSet) {
   for (const auto& region : mesh.regions)
     for (const auto& element : region.elements) {
       if (region.kind == mesh::RegionKind::lumen)
-        add_fluid(naive, fields, element);
+        add_fluid(naive, fields, element, follows_wall);
       else
         add_wall(naive, fields, element, wall);
     }
-  int all_spare = 0, all_split = 0;
+  int all_spare = 0, all_split = 0, all_beside = 0;
   for (const auto isa : test::available_isas()) {
     SCOPED_TRACE(assembly::name(isa));
     assembly::BlockMatrix matrix(pattern);
     std::vector<double> with_tangent(at(mesh.nodes()), 0.0), alone(at(mesh.nodes()), 0.0);
-    run(isa, with_tangent, &matrix, all_spare, all_split);
-    run(isa, alone, nullptr, all_spare, all_split);
+    run(isa, with_tangent, &matrix, all_spare, all_split, all_beside);
+    run(isa, alone, nullptr, all_spare, all_split, all_beside);
     for (std::size_t k = 0; k < at(mesh.owned_nodes); ++k) {
       EXPECT_NEAR(with_tangent[k], naive.residual[k].value, 1e-12 * naive.residual[k].magnitude);
       EXPECT_NEAR(alone[k], naive.residual[k].value, 1e-12 * naive.residual[k].magnitude);
@@ -155,6 +166,7 @@ TEST_P(Loops, AddUpToTheSumOverElementsForEveryInstructionSet) {
   }
   EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, std::int64_t{all_spare}), 0) << "no batch had spare lanes";
   EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, std::int64_t{all_split}), 0);
+  EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, std::int64_t{all_beside}), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Walls, Loops, testing::Values(wall::Element::mixed, wall::Element::displacement),

@@ -36,8 +36,8 @@ struct FsiSystem {
       const int width = static_cast<int>(isa);
       if (mesh.regions[r].kind == mesh::RegionKind::lumen) {
         const auto batches = assembly::make_batches(mesh, mesh.regions[r], pattern, width, false);
-        element_loops(isa).fluid(BatchView(batches), fields.view(), *input.fluid,
-                                 {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, target);
+        element_loops(isa).fluid({BatchView(batches)}, fields.view(), *input.fluid,
+                                 {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()}, {}, target);
         continue;
       }
       for (const auto& group : wall.groups(mesh, r, pattern, width))

@@ -75,13 +75,13 @@ TEST(Documents, FibresFilesAreValid) {
 TEST(Documents, CitedEquationsExist) {
   std::set<std::string> equations;
   const std::string theory = read(root / "docs" / "theory.md");
-  const std::regex tag(R"(\\tag\{([0-9]\.[0-9]+)\})");
+  const std::regex tag(R"(\\tag\{([0-9]+\.[0-9]+)\})");
   for (std::sregex_iterator i(theory.begin(), theory.end(), tag), end; i != end; ++i) {
     EXPECT_TRUE(equations.insert((*i)[1]).second) << "docs/theory.md has two equations " << (*i)[1];
   }
   ASSERT_FALSE(equations.empty());
 
-  const std::regex comment("//.*"), citation(R"((?:[ ,]|eqs?\.? )\(([1-9]\.[0-9]{1,2})\))");
+  const std::regex comment("//.*"), citation(R"((?:[ ,]|eqs?\.? )\(([1-9][0-9]?\.[0-9]{1,2})\))");
   int cited = 0;
   for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
     if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;

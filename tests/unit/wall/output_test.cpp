@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tunica/wall/material.hpp"
 #include "unit/wall/test_laws.hpp"
 
 namespace tunica::wall {
@@ -81,6 +82,39 @@ TEST(WallOutput, MixedElementDerivesFromAPotential) {
   fe::ElementVector<double> r;
   mixed_residual(e, law, body, {.acceleration = 0.0, .displacement = 1.0, .constraint = -1.0}, r);
   for (int n = 0; n < 16; ++n) EXPECT_NEAR(r.r[n / 4][n % 4], potential.d[n], 1e-13);
+}
+
+// A simple shear of 2 turns and stretches the fibre along e2; one along e1 stays. The element has its gradients in axes
+// that are turned by a quarter about e3.
+TEST(WallOutput, StressAlongFibresFollowsTheirMotion) {
+  const Vec3<double> X[4] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
+  ElementState<double> e{};
+  set_reference(e, X, Vec3<double>{{0, 1, 0}}, Vec3<double>{{-1, 0, 0}});
+  for (int a = 0; a < 4; ++a) e.displacement[a] = {{2 * X[a][1], 0, 0}};
+  const Symmetric<double> sigma{{5, 7, 0, 1, 0, 0}};  // 11, 22, 33, 12
+  // The second axis is -x, which the shear leaves alone; the first is y, which becomes (2, 1, 0).
+  EXPECT_NEAR(fibre_stress(e, sigma, {{0, 1, 0}}), 5, 1e-14);
+  EXPECT_NEAR(fibre_stress(e, sigma, {{1, 0, 0}}), (4 * 5 + 7 + 2 * 2 * 1) / 5.0, 1e-14);
+}
+
+TEST(WallOutput, MeanDirectionsOfTheFamiliesOfALaw) {
+  constexpr double angle = 0.6;
+  HgoParameters hgo;
+  hgo.families.resize(2);
+  hgo.families[0].mean_angle = angle;
+  hgo.families[1].mean_angle = -angle;
+  const auto directions = mean_fibre_directions(hgo);
+  ASSERT_EQ(directions.size(), 2u);
+  EXPECT_NEAR(directions[0][0], std::cos(angle), 1e-15);
+  EXPECT_NEAR(directions[1][1], -std::sin(angle), 1e-15);
+  DfdParameters dfd;
+  dfd.families.resize(2);
+  dfd.families[0].orientation = dfd::Bivariate{.in_plane = 1, .out_of_plane = 1, .mean_angle = angle};
+  dfd.families[1].orientation =
+      dfd::Symmetric{.concentration = 1, .mean_angle = {}, .mean_direction = Vec3<double>{{0, 0, 3}}};
+  EXPECT_NEAR(mean_fibre_directions(dfd)[0][1], std::sin(angle), 1e-15);
+  EXPECT_NEAR(mean_fibre_directions(dfd)[1][2], 1, 1e-15);
+  EXPECT_TRUE(mean_fibre_directions(NeoHookeParameters{}).empty());
 }
 
 TEST(WallOutput, PrincipalStressesAndVonMises) {

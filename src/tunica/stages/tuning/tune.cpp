@@ -132,6 +132,7 @@ void Tuning::read() {
   });
   parallel::broadcast(comm_, case_.text);
   if (parallel::rank(comm_) != 0) case_.settings = parse_case(case_.text, request_.case_file);
+  name_faces(case_.settings, case_.mesh, comm_);
   if (request_.directory) case_.settings.outlets->output = *request_.directory;
   parallel::broadcast(comm_, inlet_);
   parallel::broadcast(comm_, period_);

@@ -1,0 +1,139 @@
+#include "tunica/stages/post/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/error.hpp"
+#include "tunica/config/units.hpp"
+#include "tunica/stages/csv_file.hpp"
+
+namespace tunica::stages::post {
+
+namespace {
+
+namespace dimension = config::dimension;
+
+/// Column "name [unit]" in SI.
+std::vector<double> si_column(const CsvColumns& table, const std::string& name, const config::Dimension& due) {
+  for (std::size_t k = 0; k < table.headers.size(); ++k) {
+    const std::string& header = table.headers[k];
+    if (!header.starts_with(name + " [") || !header.ends_with("]")) continue;
+    const double factor = config::unit_factor(header.substr(name.size() + 2, header.size() - name.size() - 3), due);
+    auto values = table.columns[k];
+    for (auto& v : values) v *= factor;
+    return values;
+  }
+  throw InputError(table.file.string(), fmt::format("no column is called '{} [unit]'", name),
+                   "run the case again, or choose from: " + listed(table.headers));
+}
+
+std::vector<double> plus(std::vector<double> sum, const std::vector<double>& more) {
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += more[k];
+  return sum;
+}
+
+}  // namespace
+
+Window choose_window(const std::vector<double>& times, const PostSettings& settings, const std::string& results,
+                     std::vector<std::string>& warnings) {
+  Window w{settings.from.value_or(times.front()), settings.until.value_or(times.back())};
+  if (settings.period && settings.from) w.until = *settings.from + *settings.period;
+  if (settings.period && !settings.from) w.from = w.until - *settings.period;
+  const double step = times.size() < 2 ? 0 : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  const double margin = 1e-6 * step;
+  if (w.from < times.front() - 0.5 * step || w.until > times.back() + 0.5 * step)
+    throw InputError(
+        results,
+        fmt::format("holds fields from {:.6g} s to {:.6g} s, which do not cover the window from {:.6g} s to "
+                    "{:.6g} s",
+                    times.front(), times.back(), w.from, w.until),
+        "run longer, or choose `period`, `from` and `until` in the section `post`");
+  const auto first = std::lower_bound(times.begin(), times.end(), w.from - margin),
+             last = std::upper_bound(times.begin(), times.end(), w.until + margin);
+  w.first = static_cast<std::size_t>(first - times.begin());
+  w.count = last > first ? static_cast<std::size_t>(last - first) : 0;
+  if (w.count < 3)
+    throw InputError(
+        results,
+        fmt::format("holds {} fields between {:.6g} s and {:.6g} s, at least 3 are needed", w.count, w.from, w.until),
+        "write fields more often (`output.every`), or take a longer window");
+  const double from = times[w.first], until = times[w.first + w.count - 1];
+  if (from - w.from > margin || w.until - until > margin)
+    warnings.push_back(
+        fmt::format("no field was written at an end of the window from {:.6g} s to {:.6g} s; those from "
+                    "{:.6g} s to {:.6g} s are taken",
+                    w.from, w.until, from, until));
+  w.from = from;
+  w.until = until;
+  return w;
+}
+
+std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const Case& c, const Vessel& vessel,
+                                          const Window& window) {
+  if (!c.solves_fluid()) return {};
+  const auto table = read_csv(results / "faces.csv", "run the case first: tunica run");
+  const auto times = si_column(table, "time", dimension::time);
+  std::vector<OpeningHistory> openings;
+  for (const auto& opening : vessel.openings) {
+    const auto flow = si_column(table, opening.name + " flow", dimension::volume_flow),
+               pressure = si_column(table, opening.name + " pressure", dimension::pressure);
+    OpeningHistory history{opening.name, {}, {}, {}};
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (times[k] < window.from || times[k] > window.until) continue;
+      history.times.push_back(times[k]);
+      history.flow.push_back(flow[k]);
+      history.pressure.push_back(pressure[k]);
+    }
+    if (history.times.size() < 3)
+      throw InputError(
+          table.file.string(),
+          fmt::format("has {} lines between {:.6g} s and {:.6g} s", history.times.size(), window.from, window.until),
+          "put back the history that belongs to the fields");
+    openings.push_back(std::move(history));
+  }
+  return openings;
+}
+
+std::size_t Findings::peak() const {
+  std::vector<double> measure(times.size(), 0.0);
+  if (!vessel.openings.empty()) {
+    measure = figures.column(column::opening(data.faces[vessel.inlet].name, "pressure"));
+  } else {
+    for (const auto& region : data.regions) {
+      double volume = 0;
+      for (auto e = region.first_element; e < region.end_element; ++e)
+        volume += frames.volumes()[static_cast<std::size_t>(e)];
+      const auto mean = figures.column(column::stress(region.name, frames.stresses()[0], "mean"));
+      for (std::size_t k = 0; k < measure.size(); ++k) measure[k] += volume * mean[k];
+    }
+  }
+  return static_cast<std::size_t>(std::max_element(measure.begin(), measure.end()) - measure.begin());
+}
+
+std::vector<double> Findings::flow_through_tears() const {
+  std::vector<double> sum(times.size(), 0.0);
+  for (const auto& tear : vessel.tears) sum = plus(std::move(sum), figures.column(column::tear(tear.name, "flow")));
+  return sum;
+}
+
+std::vector<double> Findings::flow_out_of_false_lumen() const {
+  std::vector<double> sum(times.size(), 0.0);
+  for (const auto& opening : vessel.openings)
+    if (opening.in_false_lumen) sum = plus(std::move(sum), figures.column(column::opening(opening.name, "flow")));
+  return sum;
+}
+
+std::size_t Findings::entry_tear() const {
+  std::size_t entry = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < vessel.tears.size(); ++k)
+    if (const auto c = course(times, figures.column(column::tear(vessel.tears[k].name, "flow"))); c.forward > most) {
+      most = c.forward;
+      entry = k;
+    }
+  return entry;
+}
+
+}  // namespace tunica::stages::post

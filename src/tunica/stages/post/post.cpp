@@ -1,0 +1,208 @@
+#include "tunica/stages/post/post.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tunica/base/error.hpp"
+#include "tunica/mesh/series_file.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/progress.hpp"
+#include "tunica/stages/load_mesh.hpp"
+#include "tunica/stages/post/report_files.hpp"
+#include "tunica/stages/post/report_json.hpp"
+
+namespace tunica::stages::post {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* report_file = "post.json";
+
+/// The settings of a case without the section `post` are the defaults of the schema.
+PostSettings settings_of(const Case& c) {
+  return c.post ? *c.post : config::parse_text(PostSettings::schema(), "{}").value;
+}
+
+/// Frames as they are needed one after the other: the present one, and its neighbours for rates.
+class FrameWindow {
+ public:
+  FrameWindow(FieldSeries& series, bool moves) : series_(series), moves_(moves) {}
+
+  const FieldFrame& at(std::size_t frame) {
+    std::erase_if(held_, [&](const auto& held) { return held.first + 2 < frame; });
+    const auto found = held_.find(frame);
+    return found != held_.end() ? found->second : held_.emplace(frame, series_.read(frame)).first->second;
+  }
+
+  /// Of the nodes, from three frames; empty where nothing moves.
+  std::vector<double> mesh_velocity(std::size_t frame) {
+    if (!moves_) return {};
+    const auto d = derivative_at(series_.times(), frame);
+    std::vector<double> velocity(at(frame).displacement.size(), 0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& u = at(d.first + i).displacement;
+      for (std::size_t n = 0; n < velocity.size(); ++n) velocity[n] += d.weights[i] * u[n];
+    }
+    return velocity;
+  }
+
+ private:
+  FieldSeries& series_;
+  bool moves_;
+  std::map<std::size_t, FieldFrame> held_;
+};
+
+/// One `tunica post`. Its member functions are collective.
+class Post {
+ public:
+  Post(MPI_Comm comm, const PostRequest& request, std::FILE* screen);
+  void steps();
+
+ private:
+  void read();
+  void prepare_folder();
+  void look_at_frames();
+  void write();
+
+  MPI_Comm comm_;
+  const PostRequest& request_;
+  std::FILE* screen_;
+  double started_ = MPI_Wtime();
+  Case case_;
+  PostSettings settings_;
+  fs::path results_, folder_;
+  mesh::MeshData data_;
+  std::optional<FieldSeries> series_;
+  std::vector<std::string> warnings_;
+  std::vector<double> times_;  ///< of the frames in the window [s]
+  Window window_;
+  std::optional<parallel::Log> log_;
+  Vessel vessel_;
+  std::optional<FrameFigures> frames_;
+  std::optional<FigureTable> figures_;
+  CycleFields fields_;
+};
+
+Post::Post(MPI_Comm comm, const PostRequest& request, std::FILE* screen)
+    : comm_(comm), request_(request), screen_(screen) {
+  read();
+  prepare_folder();
+}
+
+void Post::read() {
+  std::string text;
+  parallel::on_root(comm_, [&] {
+    text = config::read_text(request_.case_file);
+    auto parsed = read_case(request_.case_file);
+    case_ = std::move(parsed.value);
+    for (const auto& warning : parsed.warnings) warnings_.push_back(format(warning));
+    if (std::holds_alternative<StaticWall>(case_.analysis))
+      throw InputError("analysis", "is static_wall, which has no course in time", "choose fsi, flow or wall");
+  });
+  parallel::broadcast(comm_, text);
+  if (parallel::rank(comm_) != 0) case_ = parse_case(text, request_.case_file);
+  settings_ = settings_of(case_);
+  results_ = request_.results.value_or(case_.output.directory);
+  folder_ = post_folder(case_, request_);
+  parallel::agree(comm_, [&] {
+    data_ = load_meshes(case_.meshes, {}).data;
+    series_.emplace(case_, data_, results_);
+    auto warnings = std::vector<std::string>{};
+    window_ = choose_window(series_->times(), settings_, results_.string(), warnings);
+    if (parallel::rank(comm_) == 0) warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
+    const auto first = series_->times().begin() + static_cast<std::ptrdiff_t>(window_.first);
+    times_.assign(first, first + static_cast<std::ptrdiff_t>(window_.count));
+  });
+}
+
+void Post::prepare_folder() {
+  parallel::on_root(comm_, [&] {
+    if (!request_.overwrite && fs::exists(folder_ / report_file))
+      throw InputError(folder_.string(), "holds figures already", "give --overwrite, or another folder by --output");
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error)
+      throw InputError(folder_.string(), fmt::format("cannot be made ({})", error.message()),
+                       "name a folder that can be created and written");
+  });
+  log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "post.log", .screen = screen_});
+  if (!case_.title.empty()) log_->info(case_.title);
+  for (const auto& line : warnings_) log_->warning(line);
+}
+
+// Each rank takes a stretch of the window, so that it reads hardly any frame that another one reads as well.
+void Post::look_at_frames() {
+  const auto ranks = static_cast<std::size_t>(parallel::size(comm_)),
+             rank = static_cast<std::size_t>(parallel::rank(comm_));
+  const std::size_t begin = times_.size() * rank / ranks, end = times_.size() * (rank + 1) / ranks;
+  const auto weights = trapezoid_weights(times_);
+  FrameWindow window(*series_, case_.solves_fluid() && case_.solves_wall());
+  const auto start = parallel::agree(comm_, [&] { return series_->read(window_.first).displacement; });
+  frames_.emplace(case_, settings_, data_, vessel_, series_->stresses(), start);
+  figures_.emplace(times_.size());
+  fields_ = frames_->no_fields();
+  parallel::Progress bar(*log_, "post", 0, static_cast<double>(times_.size()) / static_cast<double>(ranks));
+  parallel::agree(comm_, [&] {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto mesh_velocity = window.mesh_velocity(window_.first + k);
+      const auto& frame = window.at(window_.first + k);
+      figures_->set(k, frames_->evaluate(frame, mesh_velocity));
+      frames_->add(frame, weights[k], fields_);
+      bar.update(static_cast<double>(k + 1 - begin), fmt::format("field {} of {}", k + 1 - begin, end - begin));
+    }
+  });
+  figures_->gather(comm_);
+  gather(comm_, fields_);
+}
+
+void Post::write() {
+  parallel::on_root(comm_, [&] {
+    Findings findings{.program = request_.program,
+                      .case_file = request_.case_file,
+                      .results = results_,
+                      .title = case_.title,
+                      .settings = settings_,
+                      .data = data_,
+                      .vessel = vessel_,
+                      .window = window_,
+                      .times = times_,
+                      .figures = *figures_,
+                      .frames = *frames_,
+                      .fields = fields_,
+                      .openings = read_openings(results_, case_, vessel_, window_),
+                      .left_out = vessel_.left_out,
+                      .warnings = warnings_};
+    if (!findings.has_flap())
+      findings.left_out.push_back({"flap", fmt::format("the wall has no region {}", settings_.flap)});
+    if (findings.frames.stresses().empty()) findings.left_out.push_back({"stress", "the analysis has no wall"});
+    auto report = report_json(findings);
+    auto& files = report["files"] = nlohmann::ordered_json::array();
+    for (const auto& write : {write_tables, write_plots, write_fields})
+      for (const auto& file : write(findings, folder_)) files.push_back(file);
+    report["seconds"] = MPI_Wtime() - started_;
+    mesh::write_atomically(folder_ / report_file, report.dump(2) + "\n");
+    log_->info(report_text(report));
+  });
+  log_->info(fmt::format("{} files in {}", report_file, folder_.string()));
+}
+
+void Post::steps() {
+  vessel_ = make_vessel(case_, settings_, data_, comm_);
+  look_at_frames();
+  write();
+}
+
+}  // namespace
+
+fs::path post_folder(const Case& c, const PostRequest& request) {
+  if (request.output) return *request.output;
+  if (c.post && c.post->output) return *c.post->output;
+  return request.results.value_or(c.output.directory) / "post";
+}
+
+void post_results(MPI_Comm comm, const PostRequest& request, std::FILE* screen) { Post(comm, request, screen).steps(); }
+
+}  // namespace tunica::stages::post

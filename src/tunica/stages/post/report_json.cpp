@@ -1,0 +1,237 @@
+#include "tunica/stages/post/report_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tunica/mesh/boundary.hpp"
+
+namespace tunica::stages::post {
+
+namespace {
+
+using mesh::RegionKind;
+using nlohmann::ordered_json;
+
+/// "von Mises stress" -> "von_mises_stress".
+std::string key_of(std::string name) {
+  for (char& c : name) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
+std::string percentile_key(double p) { return fmt::format("p{:g}", p); }
+
+ordered_json pressures(const Course& c) {
+  return {{"systolic_mmHg", c.largest / unit::mmHg},
+          {"diastolic_mmHg", c.smallest / unit::mmHg},
+          {"mean_mmHg", c.mean / unit::mmHg}};
+}
+
+ordered_json vector_mm(const Vec3<double>& x) {
+  return ordered_json::array({x[0] / unit::mm, x[1] / unit::mm, x[2] / unit::mm});
+}
+
+ordered_json openings(const Findings& f) {
+  ordered_json list = ordered_json::array();
+  double outflow = 0;
+  const auto& inlet = f.data.faces[f.vessel.inlet].name;
+  for (const auto& o : f.openings)
+    if (o.name != inlet) outflow += course(o.times, o.flow).mean;
+  for (std::size_t k = 0; k < f.openings.size(); ++k) {
+    const auto& o = f.openings[k];
+    const auto flow = course(o.times, o.flow);
+    ordered_json entry = {{"name", o.name},
+                          {"inlet", o.name == inlet},
+                          {"pressure", pressures(course(o.times, o.pressure))},
+                          {"flow_outwards",
+                           {{"mean_ml_s", flow.mean / unit::ml},
+                            {"largest_ml_s", flow.largest / unit::ml},
+                            {"smallest_ml_s", flow.smallest / unit::ml}}}};
+    if (o.name != inlet) entry["share_of_outflow"] = flow.mean / outflow;
+    if (!f.vessel.side.empty()) entry["lumen"] = lumen_names[f.vessel.openings[k].in_false_lumen ? 1 : 0];
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+/// Mean and percentiles by the area of the wall, which the nodes share.
+ordered_json wall_shear(const Findings& f) {
+  std::vector<double> area(f.data.points.size(), 0.0);
+  for (const auto& t : f.vessel.inside)
+    for (const auto node : t) area[static_cast<std::size_t>(node)] += norm(mesh::area_vector(f.data.points, t)) / 3;
+  std::vector<std::pair<double, double>> tawss, osi, rrt;
+  double sum = 0, total = 0, osi_sum = 0;
+  for (std::size_t n = 0; n < area.size(); ++n) {
+    if (area[n] == 0) continue;
+    const double* s = f.fields.shear.data() + 4 * n;
+    const auto figures = shear_figures(s[0], {{s[1], s[2], s[3]}}, f.window.until - f.window.from);
+    tawss.emplace_back(figures.tawss, area[n]);
+    osi.emplace_back(figures.osi, area[n]);
+    rrt.emplace_back(figures.rrt, area[n]);
+    sum += area[n] * figures.tawss;
+    osi_sum += area[n] * figures.osi;
+    total += area[n];
+  }
+  const std::vector<double> percents = {5, 50, 95, 99};
+  const auto shares = [&](const std::vector<std::pair<double, double>>& values) {
+    const auto found = percentiles(values, percents);
+    ordered_json entry;
+    for (std::size_t p = 0; p < percents.size(); ++p) entry[percentile_key(percents[p])] = found[p];
+    return entry;
+  };
+  ordered_json report = {
+      {"area_mm2", total / unit::mm2}, {"tawss_Pa", shares(tawss)}, {"osi", shares(osi)}, {"rrt_1_Pa", shares(rrt)}};
+  report["tawss_Pa"]["mean"] = sum / total;
+  report["osi"]["mean"] = osi_sum / total;
+  return report;
+}
+
+ordered_json stresses(const Findings& f) {
+  ordered_json list = ordered_json::array();
+  const auto peak = f.peak();
+  for (const auto& region : f.data.regions) {
+    if (region.kind != RegionKind::wall) continue;
+    double volume = 0;
+    for (auto e = region.first_element; e < region.end_element; ++e)
+      volume += f.frames.volumes()[static_cast<std::size_t>(e)];
+    ordered_json entry = {{"name", region.name}, {"volume_mm3", volume * 1e9}};
+    for (std::size_t q = 0; q < f.frames.stresses().size(); ++q) {
+      const auto& quantity = f.frames.stresses()[q];
+      const auto at_peak = f.figures.column(column::stress(region.name, quantity, "mean"))[peak];
+      if (std::isnan(at_peak)) continue;  // this region has no such fibres
+      const auto most = percentiles(f.frames.values_of_region(region, f.fields.max_stress[q]), f.settings.percentiles);
+      ordered_json of_peak = {{"mean", at_peak / unit::kPa}}, of_cycle;
+      for (std::size_t p = 0; p < most.size(); ++p) {
+        const double percent = f.settings.percentiles[p];
+        const auto course = f.figures.column(column::stress(region.name, quantity, fmt::format("{:g}", percent)));
+        of_peak[percentile_key(percent)] = course[peak] / unit::kPa;
+        of_cycle[percentile_key(percent)] = most[p] / unit::kPa;
+      }
+      entry[key_of(quantity) + "_kPa"] = {{"at_peak", of_peak}, {"cycle_maximum", of_cycle}};
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+ordered_json stations(const Findings& f) {
+  ordered_json list = ordered_json::array();
+  for (std::size_t s = 0; s < f.vessel.stations.size(); ++s) {
+    const auto& station = f.vessel.stations[s];
+    ordered_json entry = {{"distance_mm", station.distance / unit::mm}, {"centre_mm", vector_mm(station.centre)}};
+    std::array<std::vector<double>, 2> pressure;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (station.sections[k].empty()) continue;
+      pressure[k] = f.figures.column(column::station(s, k, "pressure"));
+      const auto area = course(f.times, f.figures.column(column::station(s, k, "area"))),
+                 flow = course(f.times, f.figures.column(column::station(s, k, "flow")));
+      entry[std::string(lumen_names[k]) + "_lumen"] = {{"pressure", pressures(course(f.times, pressure[k]))},
+                                                       {"area",
+                                                        {{"mean_mm2", area.mean / unit::mm2},
+                                                         {"largest_mm2", area.largest / unit::mm2},
+                                                         {"smallest_mm2", area.smallest / unit::mm2}}},
+                                                       {"flow_downstream_mean_ml_s", flow.mean / unit::ml}};
+    }
+    if (!pressure[0].empty() && !pressure[1].empty()) {
+      for (std::size_t k = 0; k < pressure[0].size(); ++k) pressure[0][k] -= pressure[1][k];
+      const auto difference = course(f.times, pressure[0]);
+      entry["true_minus_false_pressure"] = {{"mean_mmHg", difference.mean / unit::mmHg},
+                                            {"largest_mmHg", difference.largest / unit::mmHg},
+                                            {"smallest_mmHg", difference.smallest / unit::mmHg}};
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+ordered_json tears(const Findings& f) {
+  ordered_json list = ordered_json::array();
+  for (std::size_t k = 0; k < f.vessel.tears.size(); ++k) {
+    const auto& tear = f.vessel.tears[k];
+    const auto flow = course(f.times, f.figures.column(column::tear(tear.name, "flow")));
+    list.push_back({{"name", tear.name},
+                    {"entry", k == f.entry_tear()},
+                    {"centre_mm", vector_mm(tear.centre)},
+                    {"distance_mm", tear.distance / unit::mm},
+                    {"area_mm2", tear.area / unit::mm2},
+                    {"volume_into_false_lumen_ml", flow.forward / unit::ml},
+                    {"volume_out_of_false_lumen_ml", flow.backward / unit::ml},
+                    {"flow_into_false_lumen",
+                     {{"mean_ml_s", flow.mean / unit::ml},
+                      {"largest_ml_s", flow.largest / unit::ml},
+                      {"smallest_ml_s", flow.smallest / unit::ml}}}});
+  }
+  return list;
+}
+
+ordered_json false_lumen(const Findings& f) {
+  const auto volume = course(f.times, f.figures.column(column::false_volume));
+  ordered_json report = {{"volume",
+                          {{"mean_ml", volume.mean / unit::ml},
+                           {"largest_ml", volume.largest / unit::ml},
+                           {"smallest_ml", volume.smallest / unit::ml}}},
+                         {"openings", ordered_json::array()}};
+  for (const auto& o : f.vessel.openings)
+    if (o.in_false_lumen) report["openings"].push_back(o.name);
+  if (f.vessel.tears.empty()) return report;
+  const auto& entry = f.vessel.tears[f.entry_tear()];
+  const auto flow = course(f.times, f.figures.column(column::tear(entry.name, "flow")));
+  report["entry_tear"] = entry.name;
+  report["ejection_fraction"] = flow.backward / flow.forward;
+  // Eq. (10.6): what goes in, less what goes out, less what stays.
+  const auto in = f.flow_through_tears(), out = f.flow_out_of_false_lumen(),
+             rate = f.figures.column(column::false_volume_rate);
+  std::vector<double> rest;
+  double largest_flow = 0, largest_rest = 0, squares = 0;
+  const auto weights = trapezoid_weights(f.times);
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    rest.push_back(in[k] - out[k] - rate[k]);
+    largest_rest = std::max(largest_rest, std::abs(rest.back()));
+    squares += weights[k] * rest.back() * rest.back();
+    for (const auto& tear : f.vessel.tears)
+      largest_flow = std::max(largest_flow, std::abs(f.figures.column(column::tear(tear.name, "flow"))[k]));
+  }
+  report["mass_balance"] = {{"largest_flow_through_a_tear_ml_s", largest_flow / unit::ml},
+                            {"largest_residual_ml_s", largest_rest / unit::ml},
+                            {"rms_residual_ml_s", std::sqrt(squares / (f.window.until - f.window.from)) / unit::ml},
+                            {"largest_residual_of_largest_flow", largest_rest / largest_flow}};
+  return report;
+}
+
+ordered_json flap(const Findings& f) {
+  const auto mean = course(f.times, f.figures.column(column::flap_mean)),
+             largest = course(f.times, f.figures.column(column::flap_largest));
+  return {{"region", f.settings.flap},
+          {"relative_to_s", f.times.front()},
+          {"largest_displacement_mm", largest.largest / unit::mm},
+          {"time_of_largest_s", largest.time_of_largest},
+          {"largest_mean_displacement_mm", mean.largest / unit::mm},
+          {"mean_displacement_over_the_cycle_mm", mean.mean / unit::mm}};
+}
+
+}  // namespace
+
+ordered_json report_json(const Findings& f) {
+  ordered_json report = {
+      {"program", {{"version", f.program.version}, {"commit", f.program.commit}}},
+      {"title", f.title},
+      {"case", f.case_file.string()},
+      {"results", f.results.string()},
+      {"window", {{"from_s", f.window.from}, {"until_s", f.window.until}, {"fields", f.times.size()}}},
+      {"peak_s", f.times[f.peak()]},
+      {"left_out", ordered_json::array()},
+      {"warnings", f.warnings}};
+  for (const auto& part : f.left_out) report["left_out"].push_back({{"part", part.part}, {"why", part.why}});
+  if (!f.openings.empty()) report["openings"] = openings(f);
+  if (!f.vessel.inside.empty()) report["wall_shear"] = wall_shear(f);
+  if (!f.frames.stresses().empty()) report["stress"] = stresses(f);
+  if (f.has_stations()) report["stations"] = stations(f);
+  if (!f.vessel.tears.empty()) report["tears"] = tears(f);
+  if (!f.vessel.side.empty()) report["false_lumen"] = false_lumen(f);
+  if (f.has_flap()) report["flap"] = flap(f);
+  return report;
+}
+
+}  // namespace tunica::stages::post

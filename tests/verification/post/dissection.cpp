@@ -1,0 +1,96 @@
+// Lumens, tears and balance of mass on the idealised dissection: a few steps of blood and wall on its coarse mesh, and
+// what `tunica post` finds in them.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "shared_folder.hpp"
+#include "tunica/stages/csv_file.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
+#include "tunica/stages/post/post.hpp"
+#include "tunica/stages/run.hpp"
+#include "verification/fluid/flow_case.hpp"
+
+namespace tunica::verification {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* outlets[] = {"brachiocephalic", "left_common_carotid", "left_subclavian", "abdominal_aorta"};
+
+void make_mesh(const test::SharedFolder& folder) {
+  parallel::on_root(MPI_COMM_WORLD, [&] {
+    stages::meshing::MeshCase c;
+    c.geometry = config::parse_text(stages::meshing::ParametricDissection::schema(), "{}").value;
+    c.size = stages::meshing::Coarse{};
+    c.output = folder.path() / "mesh";
+    stages::meshing::mesh_to_files(c, false, [](const std::string&) {});
+  });
+}
+
+std::string case_text() {
+  std::string text =
+      "analysis: fsi\n"
+      "meshes:\n"
+      "  length_unit: mm\n  lumen: {simvascular: mesh/lumen}\n"
+      "  wall:\n    simvascular: mesh/wall\n    region_array: region\n"
+      "    regions: {true_lumen_wall: 1, false_lumen_wall: 2, flap: 3, branches: 4}\n"
+      "  interface: {lumen: lumen_wall, wall: wall_inner}\n"
+      "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
+      "wall: {density: 1120 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.49}}}\n"
+      "boundary:\n  lumen_inlet: {flow: {value: 200 ml/s, ramp_time: 60 ms}}\n  wall_inlet: fixed\n"
+      "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n";
+  for (const char* name : outlets)
+    text += fmt::format("  lumen_{}: {{resistance: 4e8 Pa s/m^3}}\n  wall_{}: fixed\n", name, name);
+  return text + "time: {step: 5 ms, steps: 20, rho_infinity: 0.2}\noutput: {every: 1}\npost: {spacing: 10 mm}\n";
+}
+
+TEST(PostDissection, LumensTearsAndMass) {
+  const test::SharedFolder folder;
+  make_mesh(folder);
+  const auto file = folder.write("case.yaml", case_text());
+  stages::RunRequest run;
+  run.case_file = file;
+  stages::run(MPI_COMM_WORLD, run, nullptr);
+  stages::post::PostRequest request;
+  request.case_file = file;
+  stages::post::post_results(MPI_COMM_WORLD, request, nullptr);
+  const fs::path post = folder.path() / "results/post";
+  std::ifstream stream(post / "post.json");
+  const auto report = nlohmann::json::parse(stream);
+
+  EXPECT_TRUE(report["left_out"].empty()) << report["left_out"].dump();
+  ASSERT_EQ(report["tears"].size(), 2u);
+  EXPECT_EQ(report["false_lumen"]["entry_tear"], "tear_1");
+  const auto& balance = report["false_lumen"]["mass_balance"];
+  say("  mass of the false lumen: largest residual %.2f %% of the largest flow through a tear (%.1f ml/s)\n",
+      100 * balance["largest_residual_of_largest_flow"].get<double>(),
+      balance["largest_flow_through_a_tear_ml_s"].get<double>());
+  EXPECT_LT(balance["largest_residual_of_largest_flow"].get<double>(), 0.1);
+
+  // Both lumens together are the lumen, whose volume the run writes from its own elements.
+  const auto tears = stages::read_csv(post / "tears.csv", ""),
+             history = stages::read_csv(folder.path() / "results/balance.csv", "");
+  const auto &in_false = tears.column("false lumen volume [ml]"), &in_true = tears.column("true lumen volume [ml]");
+  const double total = in_false.back() + in_true.back(), lumen = 1e-3 * history.column("lumen volume [mm^3]").back();
+  say("  false lumen %.2f ml, true lumen %.2f ml; both %.4f ml, the run had %.4f ml\n", in_false.back(), in_true.back(),
+      total, lumen);
+  EXPECT_NEAR(total / lumen, 1, 1e-3);  // the last record of the run is a fraction of a step earlier
+
+  // dV/dt of the false lumen is the slope of its volume.
+  const auto &rate = tears.column("false lumen dV/dt [ml/s]"), &time = tears.column("time [s]");
+  const std::size_t k = time.size() / 2;
+  const double slope = (in_false[k + 1] - in_false[k - 1]) / (time[k + 1] - time[k - 1]);
+  say("  dV/dt %.4f ml/s, slope of the volume %.4f ml/s\n", rate[k], slope);
+  EXPECT_NEAR(rate[k], slope, 0.02 * std::abs(slope) + 1e-3);
+
+  // Along the dissected part there are two lumens, before it one; what passes the first section came in at the inlet.
+  int with_false = 0;
+  for (const auto& s : report["stations"]) with_false += s.contains("false_lumen");
+  EXPECT_GT(with_false, 10);
+  EXPECT_FALSE(report["stations"][0].contains("false_lumen"));
+}
+
+}  // namespace
+}  // namespace tunica::verification
