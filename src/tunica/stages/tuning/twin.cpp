@@ -248,7 +248,8 @@ class TotalsSearch {
     return fmt::format(
         "no resistance and compliance of the outlets give {:.4g}/{:.4g} mmHg at the inlet: the 0D model comes to "
         "{:.4g}/{:.4g} mmHg\n  a pulse that is too large even with much compliance comes from proximal resistance "
-        "({:.3g} of the whole) and from the vessel: raise `distal_share` or the pulse asked for;\n  one that is too "
+        "({:.3g} of the whole) and from the vessel, between rigid walls from the inertia of the blood: raise "
+        "`distal_share` or the pulse asked for;\n  one that is too "
         "small even without compliance in the outlets comes from the vessel's own: ask for less",
         systolic_ / mmHg, diastolic_ / mmHg, reached_.systolic / mmHg, reached_.diastolic / mmHg,
         1 - outlets_.distal_share);
