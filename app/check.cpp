@@ -5,13 +5,21 @@
 
 #include "commands.hpp"
 #include "file_command.hpp"
+#include "tunica/stages/chain/chain.hpp"
 #include "tunica/stages/load_mesh.hpp"
+#include "version.hpp"
 
 namespace tunica::app {
 namespace {
 
 void check(const std::filesystem::path& file) {
   const auto parsed = stages::read_case(file);
+  if (parsed.value.is_chain()) {
+    for (const auto& line : stages::chain::check_chain({.case_file = file, .program = {version(), commit()}}))
+      std::printf("%s\n", line.c_str());
+    std::printf("%s: no errors that can be found before its stages are done\n", file.c_str());
+    return;
+  }
   print_warnings(parsed.warnings);
   const auto mesh = stages::load_mesh(parsed.value);
   for (const auto& line : mesh.report) std::printf("%s\n", line.c_str());

@@ -16,8 +16,10 @@ void add_picture(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_post(CLI::App& app);
 void add_prestress(CLI::App& app);
+void add_report(CLI::App& app);
 void add_run(CLI::App& app);
 void add_schema(CLI::App& app);
+void add_tune(CLI::App& app);
 void add_verify(CLI::App& app);
 
 }  // namespace tunica::app

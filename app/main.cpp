@@ -34,8 +34,10 @@ int main(int argc, char** argv) {
   tunica::app::add_plot(app);
   tunica::app::add_post(app);
   tunica::app::add_prestress(app);
+  tunica::app::add_report(app);
   tunica::app::add_run(app);
   tunica::app::add_schema(app);
+  tunica::app::add_tune(app);
   tunica::app::add_verify(app);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,8 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/stages/chain/chain.hpp"
 #include "tunica/stages/run.hpp"
 #include "version.hpp"
 
@@ -19,14 +21,49 @@ int run(const stages::RunRequest& request) {
 
 struct Options {
   stages::RunRequest request;
-  std::string case_file, directory, restart_file;
-  std::int64_t until = 0;
+  std::string case_file, directory, restart_file, until, from;
+  bool dry_run = false;
 };
+
+/// Options that belong to the other kind of case.
+void refuse(bool given, const char* option, const char* what, const char* remedy) {
+  if (given) throw InputError(option, what, remedy);
+}
+
+/// A case with stages before and after its run.
+int run_stages(const Options& o) {
+  refuse(!o.restart_file.empty(), "--restart", "names a checkpoint, but the case has several stages",
+         "leave out the file: an interrupted stage continues by itself");
+  stages::chain::ChainRequest request{.case_file = o.request.case_file, .directory = o.request.directory};
+  if (!o.until.empty()) request.until = o.until;
+  if (!o.from.empty()) request.from = o.from;
+  request.overwrite = o.request.overwrite;
+  request.dry_run = o.dry_run;
+  request.program = o.request.program;
+  return stages::chain::run_chain(request, MPI_COMM_WORLD, stdout);
+}
+
+int run_alone(Options& o) {
+  const char* remedy = "leave it out; it is for a case with one of the sections `mesh`, `fibres`, `report`";
+  refuse(!o.from.empty(), "--from", "is given, but the case has one stage only", remedy);
+  refuse(o.dry_run, "--dry-run", "is given, but the case has one stage only", remedy);
+  if (!o.until.empty()) {
+    const bool digits = o.until.find_first_not_of("0123456789") == std::string::npos && o.until.size() < 18;
+    refuse(!digits || std::stoll(o.until) == 0, "--until", "is no number of steps, and the case has one stage only",
+           "give a whole number of steps");
+    o.request.until = std::stoll(o.until);
+  }
+  return run(o.request);
+}
+
+int run_either(Options& o) {
+  return stages::chain::is_chain(o.request.case_file, MPI_COMM_WORLD) ? run_stages(o) : run_alone(o);
+}
 
 }  // namespace
 
 void add_run(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("run", "Compute a case");
+  CLI::App* command = app.add_subcommand("run", "Compute a case, with all its stages");
   command->footer(
       "Examples:\n"
       "  tunica run case.yaml\n"
@@ -34,6 +71,12 @@ void add_run(CLI::App& app) {
       "  mpirun -n 8 tunica run case.yaml --restart          from the last checkpoint, on any number of ranks\n"
       "  tunica run case.yaml --restart results/checkpoints/step_00000200.checkpoint\n"
       "  tunica run case.yaml --output trial --until 10      ten steps, into the folder `trial`\n"
+      "A case with one of the sections mesh, fibres, report is a chain of stages: mesh, fibres, prestress, run, "
+      "report,\neach in a folder of its own. A stage whose inputs are unchanged is reused, an interrupted one "
+      "continues:\n"
+      "  tunica run case.yaml --dry-run                      what would be done, and why\n"
+      "  tunica run case.yaml --until prestress              no further than that stage\n"
+      "  tunica run case.yaml --from fibres                  that stage and all after it anew\n"
       "Results: time series for ParaView (.pvd), histories (.csv), checkpoints, manifest.json, run.log.\n"
       "Ctrl-C, SIGTERM and SIGUSR1 end the run after the present time step with a checkpoint. mpirun leaves it a\n"
       "second for that, `mpirun --mca odls_base_sigkill_timeout 10 ...` ten, and as long as it takes when mpirun gets\n"
@@ -52,18 +95,20 @@ void add_run(CLI::App& app) {
   auto* overwrite = command->add_flag("--overwrite", options->request.overwrite,
                                       "Remove earlier results in the folder first; otherwise they stop the run");
   overwrite->excludes(restart);
-  auto* until = command->add_option("--until", options->until, "Stop when so many steps are completed")
-                    ->check(CLI::PositiveNumber)
-                    ->type_name("STEP");
+  command->add_option("--until", options->until, "Stop when so many steps are completed, or after this stage")
+      ->type_name("STEP|STAGE");
+  command->add_option("--from", options->from, "Do this stage and all after it anew")
+      ->type_name("STAGE")
+      ->excludes(overwrite);
+  command->add_flag("--dry-run", options->dry_run, "Print which stage would be done, and why");
   command->callback([=] {
     stages::RunRequest& request = options->request;
     request.case_file = options->case_file;
     if (directory->count() > 0) request.directory = options->directory;
-    if (until->count() > 0) request.until = options->until;
     request.restart = restart->count() > 0;
     if (!options->restart_file.empty()) request.restart_file = options->restart_file;
     request.program = {version(), commit()};
-    throw CLI::RuntimeError(in_session([&] { return run(request); }));
+    throw CLI::RuntimeError(in_session([&] { return run_either(*options); }));
   });
 }
 

@@ -12,6 +12,7 @@
 #include "tunica/stages/imaging/scan_case.hpp"
 #include "tunica/stages/material_case.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
+#include "tunica/stages/report/report.hpp"
 
 namespace tunica::app {
 
@@ -33,6 +34,7 @@ void add_schema(CLI::App& app) {
       {"material", [] { return Description(stages::MaterialCase::schema().description()); }},
       {"mesh", [] { return Description(stages::meshing::MeshCase::schema().description()); }},
       {"fibres", [] { return Description(stages::fibres::FibresCase::schema().description()); }},
+      {"report", [] { return Description(stages::ReportCase::schema().description()); }},
       {"image", [] { return Description(stages::imaging::ScanCase::schema().description()); }},
   });
   auto* group = command->add_option_group("file", "Whose file is described instead of that of `tunica run`");

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <type_traits>
 
-#include "tunica/config/description.hpp"
+#include "tunica/config/document.hpp"
 #include "tunica/config/nearest.hpp"
 
 namespace tunica::config {
@@ -41,7 +42,8 @@ std::string join(const std::vector<std::string>& names, const char* separator = 
 
 class Reader {
  public:
-  explicit Reader(const Origin& origin) : origin_(origin) {}
+  /// `settings`: receives every value that was read, unless it is null.
+  Reader(const Origin& origin, std::vector<Setting>* settings) : origin_(origin), settings_(settings) {}
 
   std::vector<Problem> errors, warnings;
 
@@ -150,6 +152,7 @@ class Reader {
             fmt::format("give exactly one of: {}", join(all)));
     }
     if (present.empty()) return;
+    if (settings_) settings_->push_back({path, present.front(), Kind::choice});
     for (const Field& field : level.description->fields) {
       if (field.key != present.front()) continue;
       const Entry& entry = *find(entries, field.key);
@@ -171,7 +174,7 @@ class Reader {
   /// A default that does not read is a slip in the description: Description audits find it.
   void read_default(const Field& field, void* object, const std::string& path) {
     const Origin unchecked{.name = "default", .folder = origin_.folder, .check_files = false};
-    Reader reader(unchecked);
+    Reader reader(unchecked, settings_);
     reader.read_field(field, object, YAML::Load(*field.default_text), below(path, field.key), 1);
     if (!reader.errors.empty()) throw std::logic_error("bad default: " + format(reader.errors.front()));
   }
@@ -212,7 +215,33 @@ class Reader {
       default:
         break;
     }
-    if (const std::optional<Value> value = value_of(field, node, path, line)) field.store(object, *value);
+    const std::optional<Value> value = value_of(field, node, path, line);
+    if (!value) return;
+    field.store(object, *value);
+    if (settings_) settings_->push_back({path, text_of(field, *value), field.kind});
+  }
+
+  static std::string text_of(const Field& field, const Value& value) {
+    const auto text = [&](const auto& v) -> std::string {
+      using V = std::decay_t<decltype(v)>;
+      if constexpr (std::is_same_v<V, std::string>) {
+        return v;
+      } else if constexpr (std::is_same_v<V, std::int64_t>) {
+        return field.kind == Kind::choice ? field.names[static_cast<std::size_t>(v)] : std::to_string(v);
+      } else if constexpr (std::is_same_v<V, std::vector<bool>>) {
+        std::string chosen;
+        for (std::size_t i = 0; i < v.size(); ++i)
+          if (v[i]) chosen += (chosen.empty() ? "" : ", ") + field.names[i];
+        return chosen;
+      } else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, bool>) {
+        return fmt::format("{}", v);
+      } else {
+        std::string list;
+        for (const auto& item : v) list += fmt::format("{}{}", list.empty() ? "" : ", ", item);
+        return list;
+      }
+    };
+    return std::visit(text, value);
   }
 
   void read_map(const Field& field, void* object, const YAML::Node& node, const std::string& path, int line) {
@@ -409,30 +438,22 @@ class Reader {
   }
 
   const Origin& origin_;
+  std::vector<Setting>* settings_;
 };
-
-YAML::Node load(const std::string& yaml, const Origin& origin) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
-    if (documents.size() > 1)
-      throw InputError(origin.name, fmt::format("holds {} YAML documents", documents.size()),
-                       "keep one: remove the `---` lines");
-    return documents.empty() ? YAML::Node() : documents.front();
-  } catch (const YAML::Exception& e) {
-    throw InputError(fmt::format("{}:{}:{}", origin.name, e.mark.line + 1, e.mark.column + 1),
-                     fmt::format("is not valid YAML: {}", e.msg),
-                     "check indentation, colons, quotes and brackets near there");
-  }
-}
 
 }  // namespace
 
-std::vector<Problem> parse(const Description& description, void* object, const std::string& yaml,
-                           const Origin& origin) {
-  Reader reader(origin);
-  reader.read(description, object, load(yaml, origin), "", 1);
+std::vector<Problem> parse(const Description& description, void* object, const Document& document, const Origin& origin,
+                           std::vector<Setting>* settings) {
+  Reader reader(origin, settings);
+  reader.read(description, object, document.node(), "", 1);
   if (!reader.errors.empty()) throw InputError(std::move(reader.errors));
   return std::move(reader.warnings);
+}
+
+std::vector<Problem> parse(const Description& description, void* object, const std::string& yaml,
+                           const Origin& origin) {
+  return parse(description, object, Document(yaml, origin.name), origin);
 }
 
 }  // namespace tunica::config

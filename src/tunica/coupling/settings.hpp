@@ -1,6 +1,10 @@
 // Settings of the time stepping and of the solvers.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
 #include "tunica/config/schema.hpp"
 
 namespace tunica::coupling {
@@ -57,25 +61,59 @@ struct LinearSettings {
   }
 };
 
+/// A run that goes on until its cycles repeat themselves.
+struct CycleSettings {
+  double period = 0.0;  ///< s
+  int most = 10;
+  double tolerance = 0.01;  ///< change from cycle to cycle, of the largest pressure and flow of each opening
+
+  static config::Schema<CycleSettings> schema() {
+    using namespace config;
+    return Schema<CycleSettings>("cycles", "Cycles that are computed until they repeat themselves.")
+        .quantity("period", &CycleSettings::period, dimension::time, above(0),
+                  "Length of a cycle, a multiple of `step`")
+        .plausible("0.3 s", "2 s")
+        .integer("most", &CycleSettings::most, range(1, 10000), "Cycles after which the run ends in any case")
+        .by_default()
+        .number("tolerance", &CycleSettings::tolerance, between(0, 1),
+                "Change of mean, largest and smallest pressure and flow of every opening from one cycle to the next "
+                "that counts as none, relative to the largest pressure and the largest flow of that opening")
+        .by_default();
+  }
+};
+
+/// Steps whose size follows the error.
+struct AdaptiveSettings {
+  double tolerance = 1e-3;  ///< of the velocity in a step, relative
+  double smallest = 0.0;    ///< s
+
+  static config::Schema<AdaptiveSettings> schema() {
+    using namespace config;
+    return Schema<AdaptiveSettings>("adaptive", "Steps whose size follows the error in time.")
+        .number("tolerance", &AdaptiveSettings::tolerance, range(1e-8, 0.5),
+                "Difference of a step's velocity from that of an explicit step of first order, root mean square over "
+                "the nodes, relative to the largest so far")
+        .by_default()
+        .quantity("smallest", &AdaptiveSettings::smallest, dimension::time, above(0),
+                  "Step that the error makes no smaller; `step` is the largest, and all are halves, quarters and so on "
+                  "of it");
+  }
+};
+
 struct TimeSettings {
-  double step = 0.0;  ///< s
-  std::int64_t steps = 0;
+  double step = 0.0;       ///< s
+  std::int64_t steps = 0;  ///< 0: not given, as there are cycles
+  std::optional<CycleSettings> cycles;
+  std::optional<AdaptiveSettings> adaptive;
   double rho_infinity = 0.5;  ///< spectral radius of generalised-alpha at infinite frequency
   int max_halvings = 6;       ///< of a rejected step
 
-  static config::Schema<TimeSettings> schema() {
-    using namespace config;
-    return Schema<TimeSettings>("time", "Time stepping.")
-        .quantity("step", &TimeSettings::step, dimension::time, above(0), "Step size")
-        .plausible("0.001 ms", "100 ms")
-        .integer("steps", &TimeSettings::steps, range(1, 1e9), "Number of steps of that size")
-        .number("rho_infinity", &TimeSettings::rho_infinity, range(0, 1),
-                "Spectral radius of the generalised-alpha scheme at infinite frequency: 1 no damping, 0 most")
-        .by_default()
-        .integer("max_halvings", &TimeSettings::max_halvings, range(0, 30),
-                 "How often a rejected step may be halved before the run stops")
-        .by_default();
-  }
+  /// Steps in a cycle; only with cycles.
+  std::int64_t steps_per_cycle() const { return std::llround(cycles.value().period / step); }
+  /// Steps at the end of the run at the latest.
+  std::int64_t most_steps() const { return cycles ? cycles->most * steps_per_cycle() : steps; }
+
+  static config::Schema<TimeSettings> schema();
 };
 
 }  // namespace tunica::coupling

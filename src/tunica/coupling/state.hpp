@@ -21,6 +21,7 @@ struct State {
   std::vector<double> displacement_rate;  ///< du/dt at t_n [m/s]
   std::vector<bc::Outlet> outlets;        ///< in the order of the model's outlet faces
   double residual_reference = 0.0;        ///< largest initial residual norm so far: what "small" is measured against
+  double velocity_reference = 0.0;        ///< largest norm of the nodal velocities so far, for adaptive steps [m/s]
 };
 
 }  // namespace tunica::coupling

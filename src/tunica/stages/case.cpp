@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tunica/bc/waveform.hpp"
 
@@ -170,6 +171,21 @@ struct Part {
   const char* remedy;  ///< when it is wanted and missing
 };
 
+/// What the stages before the run give is not given besides.
+void check_chain(const Case& c, Problems& problems) {
+  if (c.mesh.has_value() == c.meshes.given())
+    problems.add(c.mesh ? "meshes" : "", c.mesh ? "is given, and `mesh` too" : "`meshes` is missing: no mesh is given",
+                 "give `meshes`, which are there, or `mesh`, which is made first");
+  if (c.mesh && !(c.solves_fluid() && c.solves_wall()))
+    problems.add("mesh", "makes lumen and wall, but the analysis is of one of them",
+                 "choose `analysis: fsi`, or make the mesh by `tunica mesh` and give what is wanted of it as `meshes`");
+  if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
+  if (!c.is_chain() || !c.prestress) return;
+  const char* remedy = "remove it: that of the stage `prestress` is taken";
+  if (c.wall && c.wall->prestress) problems.add("wall.prestress", "is given, and the section `prestress` too", remedy);
+  if (c.start) problems.add("start", "is given, and the section `prestress` too", remedy);
+}
+
 void check_case(const Case& c, Problems& problems) {
   const bool coupled = c.solves_fluid() && c.solves_wall(),
              static_wall = std::holds_alternative<StaticWall>(c.analysis);
@@ -178,11 +194,12 @@ void check_case(const Case& c, Problems& problems) {
       {"fluid", c.solves_fluid(), c.fluid.has_value(), "add `fluid:`; with `{}` it has the usual values of blood"},
       {"wall", c.solves_wall(), c.wall.has_value(), "add `wall:` with density and material"},
       {"prestress", c.prestress && c.solves_wall(), c.prestress.has_value(), ""},
+      {"outlets", c.outlets && c.solves_fluid(), c.outlets.has_value(), ""},
       {"mesh_motion", coupled, coupled || c.mesh_motion.has_value(), ""},
       {"time", !static_wall, c.time.has_value(), "add `time: {step: 1 ms, steps: 100}`"},
-      {"meshes.lumen", c.solves_fluid(), c.meshes.has_lumen(), "give a mesh of the lumen"},
-      {"meshes.wall", c.solves_wall(), c.meshes.has_wall(), "give a mesh of the wall"},
-      {"meshes.interface", coupled, c.meshes.interface.has_value(),
+      {"meshes.lumen", c.solves_fluid(), c.mesh ? c.solves_fluid() : c.meshes.has_lumen(), "give a mesh of the lumen"},
+      {"meshes.wall", c.solves_wall(), c.mesh ? c.solves_wall() : c.meshes.has_wall(), "give a mesh of the wall"},
+      {"meshes.interface", coupled, c.mesh ? coupled : c.meshes.interface.has_value(),
        "name the surface that both have in common: `interface: {lumen: <face>, wall: <face>}`"},
   };
   for (const Part& part : parts) {
@@ -192,6 +209,7 @@ void check_case(const Case& c, Problems& problems) {
       problems.add(part.key, fmt::format("is given, but `analysis: {}` does not use it", analysis),
                    "remove it, or choose another analysis");
   }
+  check_chain(c, problems);
   if (c.prestress && c.solves_wall()) {
     if (coupled && !c.prestress->flow)
       problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",
@@ -200,7 +218,26 @@ void check_case(const Case& c, Problems& problems) {
       problems.add("prestress.flow", fmt::format("is given, but `analysis: {}` has no flow", analysis),
                    "remove it: the loads on the wall are those of `boundary`");
   }
+  if (c.outlets)
+    for (const auto& [face, share] : c.outlets->fractions)
+      if (std::any_of(c.boundary.begin(), c.boundary.end(), [&](const auto& b) { return b.first == face; }))
+        problems.add("boundary." + face, "is an outlet of `outlets.fractions` as well",
+                     "remove it from one of them: tuned outlets have no entry in `boundary`");
+  if (c.time && c.time->cycles && !c.solves_fluid())
+    problems.add("time.cycles", fmt::format("is given, but `analysis: {}` has no openings to look at", analysis),
+                 "give `steps`");
   if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
+}
+
+/// A run can only become periodic when a cycle holds whole periods of everything that drives it.
+void check_period(const Case& c, const std::string& where, const bc::Waveform& course, std::vector<Problem>& found) {
+  if (!c.time || !c.time->cycles || !course.period()) return;
+  const double periods = c.time->cycles->period / *course.period();
+  if (periods < 0.5 || std::abs(periods - std::round(periods)) > 1e-6)
+    found.push_back({"time.cycles.period",
+                     fmt::format("of {:.9g} s is no multiple of the period of {:.9g} s of {}", c.time->cycles->period,
+                                 *course.period(), where),
+                     "give the period of the waveform"});
 }
 
 /// Tables that do not read or make no waveform, each named by its place in the case file.
@@ -208,11 +245,12 @@ std::vector<Problem> check_waveforms(const Case& c) {
   std::vector<Problem> found;
   for (const auto& [face, condition] : c.boundary) {
     const std::string where = "boundary." + face;
+    const auto check = [&](const bc::Waveform& course) { check_period(c, where, course, found); };
     try {
-      if (const auto* flow = std::get_if<bc::Flow>(&condition)) bc::inflow(*flow);
-      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) bc::make_waveform(pressure->pressure);
-      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) bc::make_waveform(velocity->course);
-      if (const auto* traction = std::get_if<bc::Traction>(&condition)) bc::make_waveform(traction->course);
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) check(bc::inflow(*flow));
+      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) check(bc::make_waveform(pressure->pressure));
+      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) check(bc::make_waveform(velocity->course));
+      if (const auto* traction = std::get_if<bc::Traction>(&condition)) check(bc::make_waveform(traction->course));
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
     }
@@ -220,11 +258,23 @@ std::vector<Problem> check_waveforms(const Case& c) {
   return found;
 }
 
+/// The fractions add up to 1 exactly, and the outlets get conditions, so that whatever looks at the faces finds one on
+/// each.
+void place_outlets(Case& c, std::vector<Problem>& warnings) {
+  double sum = 0;
+  for (const auto& [face, share] : c.outlets->fractions) sum += share;
+  if (std::abs(sum - 1) > 1e-9)
+    warnings.push_back({"outlets.fractions", fmt::format("add up to {:.6g}", sum), "they are divided by that sum"});
+  for (auto& [face, share] : c.outlets->fractions) share /= sum;
+  for (auto& outlet : provisional_outlets(*c.outlets)) c.boundary.push_back(std::move(outlet));
+}
+
 config::Parsed<Case> parse(const std::string& yaml, const std::filesystem::path& file, bool check_files) {
   const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = check_files};
-  config::Parsed<Case> parsed = config::parse_text(Case::schema(), yaml, origin);
+  config::Parsed<Case> parsed = config::parse_document(Case::schema(), case_document(yaml, file), origin);
   Case& c = parsed.value;
   if (c.solves_fluid() && c.solves_wall() && !c.mesh_motion) c.mesh_motion.emplace();
+  if (c.outlets) place_outlets(c, parsed.warnings);
   return parsed;
 }
 
@@ -295,7 +345,13 @@ Schema<Case> Case::schema() {
       .text("title", &Case::title, "Free text for logs and reports")
       .by_default()
       .section("analysis", &Case::analysis, analysis_schema(), "What is computed")
-      .section("meshes", &Case::meshes, MeshSettings::schema(), "Geometry")
+      .section("mesh", &Case::mesh, meshing::MeshCase::schema(),
+               "What `tunica run` meshes first, as in the file of `tunica mesh`; in place of `meshes`")
+      .section("meshes", &Case::meshes, MeshSettings::schema(), "Meshes that are there; in place of `mesh`")
+      .optional()
+      .section("fibres", &Case::fibres, fibres::FibreSettings::schema(),
+               "Material directions that `tunica run` makes first, as in the file of `tunica fibres`; inlet, outer and "
+               "tears may be left out after `mesh`")
       .section("fluid", &Case::fluid, fluid::Parameters::schema(), "Blood; for `fsi` and `flow`")
       .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")
       .section("mesh_motion", &Case::mesh_motion, ale::Parameters::schema(),
@@ -306,8 +362,11 @@ Schema<Case> Case::schema() {
       .path("start", &Case::start,
             "State that the run starts from: start.checkpoint of `tunica prestress`; at rest when left out")
       .section("prestress", &Case::prestress, PrestressCase::schema(), "What `tunica prestress` shall find, and how")
+      .section("outlets", &Case::outlets, TuningCase::schema(),
+               "Outlets by pressures and shares of the flow, which `tunica tune` finds")
       .section("post", &Case::post, PostSettings::schema(),
                "What `tunica post` makes of the results; with its defaults when left out")
+      .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
       .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
       .by_default()
       .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")
@@ -315,6 +374,13 @@ Schema<Case> Case::schema() {
       .section("output", &Case::output, OutputSettings::schema(), "Results")
       .by_default()
       .check(check_case);
+}
+
+config::Document case_document(const std::string& yaml, const std::filesystem::path& file) {
+  config::Document document(yaml, file.string());
+  if (document.has("fibres") && document.has("wall") && !document.has("wall.fibre_frame"))
+    document.set("wall.fibre_frame", config::Document("mesh: {e1: e1, e2: e2}"));
+  return document;
 }
 
 config::Parsed<Case> read_case(const std::filesystem::path& file) {

@@ -12,13 +12,18 @@
 
 #include "tunica/ale/parameters.hpp"
 #include "tunica/bc/conditions.hpp"
+#include "tunica/config/document.hpp"
 #include "tunica/config/schema.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/fibres/settings.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/post/settings.hpp"
 #include "tunica/stages/prestress/settings.hpp"
+#include "tunica/stages/report/settings.hpp"
+#include "tunica/stages/tuning/settings.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
@@ -70,6 +75,7 @@ struct MeshSettings {
   std::optional<mesh::TubeSizes> tube;
   std::optional<InterfaceSettings> interface;  ///< present for fluid-structure interaction
 
+  bool given() const { return lumen || wall || gmsh || tube; }
   bool has_lumen() const;
   bool has_wall() const;
   static config::Schema<MeshSettings> schema();
@@ -97,23 +103,33 @@ struct OutputSettings {
 struct Case {
   std::string title;
   Analysis analysis;
+  std::optional<meshing::MeshCase> mesh;  ///< what is meshed first, in place of `meshes`
   MeshSettings meshes;
+  std::optional<fibres::FibreSettings> fibres;  ///< directions that are made first
   std::optional<fluid::Parameters> fluid;
   std::optional<wall::Parameters> wall;
   std::optional<ale::Parameters> mesh_motion;  ///< for fluid-structure interaction; always present there
-  std::vector<std::pair<std::string, bc::Condition>> boundary;  ///< face name, condition, as in the file
-  std::optional<coupling::TimeSettings> time;                   ///< all but static walls
-  std::optional<std::filesystem::path> start;                   ///< state to start from; else at rest
-  std::optional<PrestressCase> prestress;                       ///< what `tunica prestress` shall do
-  std::optional<PostSettings> post;                             ///< what `tunica post` shall make of the results
+  /// Face name, condition, as in the file; then the provisional outlets of the section `outlets`, which a run replaces.
+  std::vector<std::pair<std::string, bc::Condition>> boundary;
+  std::optional<coupling::TimeSettings> time;  ///< all but static walls
+  std::optional<std::filesystem::path> start;  ///< state to start from; else at rest
+  std::optional<PrestressCase> prestress;      ///< what `tunica prestress` shall do
+  std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
+  std::optional<PostSettings> post;            ///< what `tunica post` shall make of the results
+  std::optional<ReportSettings> report;        ///< the page that is written last
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;
 
+  /// Is there more to do than to run it (chain/chain.hpp)?
+  bool is_chain() const { return mesh || fibres || report; }
   bool solves_fluid() const;
   bool solves_wall() const;
   static config::Schema<Case> schema();
 };
+
+/// The text of a case file, with what follows from other sections: a wall that is given fibres has their frame.
+config::Document case_document(const std::string& yaml, const std::filesystem::path& file);
 
 /// Reads and validates a case file without its meshes; tables of waveforms are read and checked, too. Throws
 /// InputError with all problems. Not collective: call it on one rank, and `parse_case` on the others.

@@ -47,6 +47,7 @@ json header_of(const Checkpoint& c, std::int64_t nodes) {
           {"time", c.state.time},
           {"dt", c.state.dt},
           {"residual_reference", c.state.residual_reference},
+          {"velocity_reference", c.state.velocity_reference},
           {"outlets", outlets},
           {"grid",
            {{"base_time", p.base_time},
@@ -78,6 +79,7 @@ void take_header(const json& h, Checkpoint& c, const std::string& where) {
   c.state.time = h.at("time");
   c.state.dt = h.at("dt");
   c.state.residual_reference = h.at("residual_reference");
+  c.state.velocity_reference = h.value("velocity_reference", 0.0);  // older ones had no adaptive steps
   const json& g = h.at("grid");
   c.position = {g.at("base_time"), g.at("base_step"), g.at("nominal"), g.at("done"), g.at("part"), g.at("level")};
   restore_outlets(h.at("outlets"), c.state.outlets, where);

@@ -54,7 +54,9 @@ class Histories {
 
   void append(const StepHistory& step, const std::vector<bc::Outlet>& outlets);
 
-  static std::vector<std::string> files() { return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv"}; }
+  static std::vector<std::string> files() {
+    return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv"};
+  }
 
  private:
   struct Factors {

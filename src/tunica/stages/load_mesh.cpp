@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <map>
 
-#include "tunica/bc/check.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/gmsh.hpp"
 #include "tunica/mesh/interface.hpp"
 #include "tunica/mesh/quality.hpp"
 #include "tunica/mesh/simvascular.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/stages/face_patterns.hpp"
 #include "tunica/stages/hash.hpp"
 #include "tunica/stages/prestress/prestress_file.hpp"
 
@@ -87,16 +88,35 @@ LoadedMesh read_or_generate(const MeshSettings& m, const WallArrays& arrays) {
   return mesh::read_gmsh(m.gmsh->file, options);
 }
 
-bc::BoundaryCase boundary_case(const Case& c, const mesh::MeshData& data) {
+bc::BoundaryCase boundary_case(const Case& c, const std::vector<bc::BoundaryFace>& faces) {
   bc::BoundaryCase boundary;
-  for (const auto& face : data.faces)
-    boundary.faces.push_back(
-        {face.name, data.regions[face.region].kind == RegionKind::lumen ? bc::Field::lumen : bc::Field::wall});
+  boundary.faces = faces;
   boundary.interfaces = interface_pairs(c.meshes);
   boundary.conditions = c.boundary;
   boundary.rigid_wall = std::holds_alternative<RigidFlow>(c.analysis);
   boundary.static_wall = std::holds_alternative<StaticWall>(c.analysis);
   return boundary;
+}
+
+std::vector<bc::BoundaryFace> faces_of(const mesh::MeshData& data) {
+  std::vector<bc::BoundaryFace> faces;
+  for (const auto& face : data.faces)
+    faces.push_back(
+        {face.name, data.regions[face.region].kind == RegionKind::lumen ? bc::Field::lumen : bc::Field::wall});
+  return faces;
+}
+
+/// Names of the faces that may have a condition.
+std::vector<std::string> free_faces(const MeshSettings& meshes, std::vector<std::string> names) {
+  for (const auto& [lumen, wall] : interface_pairs(meshes))
+    std::erase_if(names, [&](const auto& name) { return name == lumen || name == wall; });
+  return names;
+}
+
+std::vector<std::string> names_of(const std::vector<bc::BoundaryFace>& faces) {
+  std::vector<std::string> names;
+  for (const auto& face : faces) names.push_back(face.name);
+  return names;
 }
 
 void report_quality(CheckedMesh& mesh, std::vector<Problem>& problems) {
@@ -136,14 +156,34 @@ CheckedMesh load_meshes(const MeshSettings& meshes, const std::vector<std::strin
   return mesh;
 }
 
+std::vector<Problem> check_faces(const Case& c, const std::vector<bc::BoundaryFace>& faces) {
+  std::vector<Problem> problems;
+  auto boundary = boundary_case(c, faces);
+  boundary.conditions = without_patterns(c.boundary, free_faces(c.meshes, names_of(faces)), problems);
+  const auto wrong = bc::check_boundary(boundary);
+  problems.insert(problems.end(), wrong.begin(), wrong.end());
+  return problems;
+}
+
+void name_faces(Case& c, const CheckedMesh& mesh, MPI_Comm comm) {
+  auto names = parallel::on_root(comm, [&] { return names_of(faces_of(mesh.data)); });
+  parallel::broadcast(comm, names);
+  std::vector<Problem> problems;
+  c.boundary = without_patterns(c.boundary, free_faces(c.meshes, std::move(names)), problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 CheckedMesh load_mesh(const Case& c) {
+  if (c.mesh || c.fibres)
+    throw InputError(c.mesh ? "mesh" : "fibres", "is a stage to be done first, which `tunica run` alone does",
+                     "use `tunica run`, or the case file in the folder of a stage that it has made");
   const bool needs_frames = c.wall && c.wall->fibre_frame;
   std::vector<Problem> problems;
   CheckedMesh mesh = read_and_measure(
       c.meshes,
       {needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{}, support_arrays(c)},
       problems);
-  const auto wrong = bc::check_boundary(boundary_case(c, mesh.data));
+  const auto wrong = check_faces(c, faces_of(mesh.data));
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   if (c.wall && c.wall->prestress) collect(problems, [&] { read_prestress(*c.wall->prestress, mesh.data); });
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -1,11 +1,14 @@
 // From the mesh section of a case to a mesh that a problem can be posed on.
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tunica/bc/check.hpp"
 #include "tunica/mesh/distributed_mesh.hpp"
 #include "tunica/mesh/mesh_data.hpp"
 #include "tunica/stages/case.hpp"
@@ -24,7 +27,15 @@ struct CheckedMesh {
 /// collective: for one rank.
 CheckedMesh load_mesh(const Case& c);
 
-/// The same without conditions on the faces. `fields`: element values of the wall that are kept.
+/// All that is wrong with the conditions of a case on faces that are known. Patterns such as `wall_*` are looked up.
+std::vector<Problem> check_faces(const Case& c, const std::vector<bc::BoundaryFace>& faces);
+
+/// Puts the faces of the mesh in the place of patterns among the names of `c.boundary`: `wall_*` stands for every face
+/// whose name begins like that, is not named itself and is no interface. `mesh`: significant on rank 0, where
+/// load_mesh() has checked them. Collective.
+void name_faces(Case& c, const CheckedMesh& mesh, MPI_Comm comm);
+
+/// Only the meshes of a case, without conditions on their faces. `fields`: element values of the wall that are kept.
 CheckedMesh load_meshes(const MeshSettings& meshes, const std::vector<std::string>& fields);
 
 /// The section `meshes` of a case in a folder where `lumen` and `wall` are meshes in SimVascular's layout, in mm.

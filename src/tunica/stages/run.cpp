@@ -15,13 +15,16 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
 #include "tunica/parallel/signals.hpp"
+#include "tunica/stages/adaptive_steps.hpp"
 #include "tunica/stages/checkpoint.hpp"
+#include "tunica/stages/cycles.hpp"
 #include "tunica/stages/fields.hpp"
 #include "tunica/stages/hash.hpp"
 #include "tunica/stages/histories.hpp"
 #include "tunica/stages/prestress/prestress_file.hpp"
 #include "tunica/stages/problem_input.hpp"
 #include "tunica/stages/step_grid.hpp"
+#include "tunica/stages/tuning/outlets_file.hpp"
 
 namespace tunica::stages {
 
@@ -32,14 +35,6 @@ namespace {
 
 constexpr int static_halvings = 6;
 constexpr std::size_t kept_checkpoints = 2;
-
-/// Of the text and of the prestress that it names. For rank 0.
-std::uint64_t case_hash(const ReadCase& c) {
-  Hash hash;
-  hash.add(c.text.data(), c.text.size());
-  if (const auto prestress = prestress_hash(c.mesh.data); prestress != 0) hash.add(&prestress, sizeof prestress);
-  return hash.value();
-}
 
 std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
@@ -73,7 +68,14 @@ class Run {
   StepReport attempt();
   /// Takes one step, in parts if it must be. False when a signal came instead.
   bool take_step();
-  void accepted(const StepReport& report, double dt);
+  void accepted(const StepReport& report, double dt, int wanted_level);
+  void judge(const StepReport& report, const coupling::State& before, double dt);
+  bool at_cycle_end() const {
+    return case_.time && case_.time->cycles && grid_.on_grid() && grid_.steps_done() > 0 &&
+           grid_.steps_done() % case_.time->steps_per_cycle() == 0;
+  }
+  /// At the end of a cycle: does it repeat the one before? `anew`: it has just been computed.
+  bool finish_cycle(bool anew);
   void rejected(const StepReport& report);
   void write_fields();
   void save();
@@ -100,6 +102,7 @@ class Run {
   std::optional<OutputFields> fields_;
   std::optional<mesh::ResultsWriter> writer_;
   std::optional<Histories> histories_;  ///< rank 0
+  std::optional<Cycles> cycles_;        ///< rank 0, with cycles
   std::optional<Manifest> manifest_;    ///< rank 0
   coupling::State state_;
   StepGrid grid_;
@@ -137,14 +140,16 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
 
 std::int64_t Run::last_step() const {
   if (const auto* s = std::get_if<StaticWall>(&case_.analysis)) return s->load_steps;
-  return case_.time->steps;
+  return case_.time->most_steps();
 }
 
 // In statics the grid is that of the load factor.
 StepGrid Run::make_grid(const StepGrid::Position* position) const {
   const auto* statics = std::get_if<StaticWall>(&case_.analysis);
   const double nominal = statics ? 1.0 / statics->load_steps : case_.time->step;
-  const int halvings = statics ? static_halvings : case_.time->max_halvings;
+  const int halvings = statics                ? static_halvings
+                       : case_.time->adaptive ? std::max(case_.time->max_halvings, finest_level(*case_.time))
+                                              : case_.time->max_halvings;
   return position ? StepGrid(nominal, halvings, *position) : StepGrid(nominal, halvings);
 }
 
@@ -217,13 +222,18 @@ void Run::restore() {
   Checkpoint checkpoint = read_checkpoint(name, mesh_, state_, mesh_hash_);
   state_ = std::move(checkpoint.state);
   grid_ = make_grid(&checkpoint.position);
+  if (case_.time && case_.time->cycles && checkpoint.position.nominal != case_.time->step)
+    throw InputError(
+        "time.step",
+        fmt::format("is {:.9g} s, in the run to be continued {:.9g} s", case_.time->step, checkpoint.position.nominal),
+        "keep the step of a run in cycles, or start anew");
   last_checkpoint_ = name;
   log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
     log_->warning(
-        "the case file or its prestress has changed since the checkpoint was written; the run goes on with the new "
-        "one");
+        "the case file, its prestress or its tuned outlets have changed since the checkpoint was written; the run goes "
+        "on with the new ones");
 }
 
 void Run::open_outputs() {
@@ -245,6 +255,7 @@ void Run::open_outputs() {
   parallel::on_root(comm_, [&] {
     const auto from = keep ? std::optional(state_.step) : std::nullopt;
     histories_.emplace(folder_, case_, lumen_faces, state_.outlets, from);
+    if (case_.time && case_.time->cycles) cycles_.emplace(folder_, case_, openings(case_, lumen_faces), from);
     manifest_.emplace(folder_, head, keep);
     for (const auto& file : list_checkpoints(checkpoint_folder()))  // of a future that is computed anew
       if (step_of(file) > grid_.steps_done()) fs::remove(file);
@@ -273,9 +284,9 @@ StepReport Run::attempt() {
   return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
 }
 
-void Run::accepted(const StepReport& report, double dt) {
+void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   const double start = grid_.time();
-  grid_.accept();
+  grid_.accept(wanted_level);
   if (is_static())
     ++state_.step;
   else
@@ -306,17 +317,51 @@ void Run::rejected(const StepReport& report) {
                             report.failure, time_text(grid_.next_step())));
 }
 
+// One that the error is too large for is taken back like one that failed.
+void Run::judge(const StepReport& report, const coupling::State& before, double dt) {
+  const StepError error = step_error(mesh_, before, state_);
+  const double tolerance = case_.time->adaptive->tolerance;
+  const int wanted = wanted_level(*case_.time, grid_.level(), error);
+  if (wanted > grid_.level() && grid_.halve()) {
+    state_ = before;
+    ++progress_.rejected_steps;
+    log_->info(fmt::format("step of {} from t = {} taken back: error {:.2e}, tolerance {:.2e}", time_text(dt),
+                           time_text(grid_.time()), error.relative, tolerance));
+    return;
+  }
+  state_.velocity_reference = error.reference;
+  accepted(report, dt, wanted);
+}
+
 bool Run::take_step() {
   do {
     if (parallel::stop_requested(comm_) != 0) return false;
     const double dt = grid_.next_step();
+    const bool adaptive = case_.time && case_.time->adaptive;
+    const coupling::State before = adaptive ? state_ : coupling::State{};
     const StepReport report = attempt();
-    if (report.converged)
-      accepted(report, dt);
-    else
+    if (!report.converged)
       rejected(report);
+    else if (adaptive)
+      judge(report, before, dt);
+    else
+      accepted(report, dt, 0);
   } while (!grid_.on_grid());
   return true;
+}
+
+bool Run::finish_cycle(bool anew) {
+  const auto& settings = *case_.time->cycles;
+  const int cycle = static_cast<int>(grid_.steps_done() / case_.time->steps_per_cycle());
+  CycleChange change =
+      parallel::on_root(comm_, [&] { return anew ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle); });
+  parallel::broadcast(comm_, change);
+  const bool periodic = change.below(settings.tolerance), last = cycle == settings.most;
+  if (periodic || !last)
+    log_->info(describe(change, settings));
+  else
+    log_->warning(describe(change, settings));
+  return periodic;
 }
 
 void Run::write_fields() {
@@ -368,8 +413,11 @@ void Run::give_up(const StepReport& report) {
 RunOutcome Run::steps() {
   const std::int64_t end = std::min(last_step(), request_.until.value_or(last_step()));
   RunOutcome outcome;
-  if (grid_.steps_done() >= end) {
-    log_->info(fmt::format("nothing to do: {} of {} are completed", grid_.steps_done(), plural(end, "step")));
+  bool periodic = at_cycle_end() && finish_cycle(false);
+  if (periodic || grid_.steps_done() >= end) {
+    log_->info(periodic
+                   ? std::string("nothing to do: the run is periodic")
+                   : fmt::format("nothing to do: {} of {} are completed", grid_.steps_done(), plural(end, "step")));
     record("completed", "");
     return {.signal = 0, .steps = grid_.steps_done()};
   }
@@ -377,13 +425,15 @@ RunOutcome Run::steps() {
   try {
     if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
     bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
-    while (grid_.steps_done() < end) {
+    while (grid_.steps_done() < end && !periodic) {
+      const auto done = grid_.steps_done();
       if (!take_step()) {
         outcome.signal = parallel::stop_requested(comm_);
         break;
       }
       if (grid_.steps_done() % case_.output.every == 0) write_fields();
       if (grid_.steps_done() % case_.output.checkpoint_every == 0) save();
+      if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
       bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
     }
     bar_.reset();
@@ -396,13 +446,15 @@ RunOutcome Run::steps() {
   }
   outcome.steps = grid_.steps_done();
   record(outcome.signal == 0 ? "completed" : "stopped",
-         outcome.signal == 0 ? "" : fmt::format("signal {}", outcome.signal));
+         outcome.signal == 0 ? (periodic ? "periodic" : "") : fmt::format("signal {}", outcome.signal));
   if (outcome.signal != 0) {
-    log_->warning(fmt::format(
-        "stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  tunica run {}{} "
-        "--restart",
-        sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
-        request_.case_file.string(), request_.directory ? " --output " + request_.directory->string() : ""));
+    const std::string resume = request_.resume.empty()
+                                   ? fmt::format("tunica run {}{} --restart", request_.case_file.string(),
+                                                 request_.directory ? " --output " + request_.directory->string() : "")
+                                   : request_.resume;
+    log_->warning(fmt::format("stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  {}",
+                              sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
+                              resume));
   } else {
     log_->info(fmt::format("{} in {:.1f} s ({:.1f} s set-up), {:.0f} MB of memory; results in {}",
                            plural(grid_.steps_done(), "step"), progress_.total_seconds, progress_.set_up_seconds,
@@ -412,6 +464,14 @@ RunOutcome Run::steps() {
 }
 
 }  // namespace
+
+std::uint64_t case_hash(const ReadCase& c) {
+  Hash hash;
+  hash.add(c.text.data(), c.text.size());
+  hash.add(c.outlets.data(), c.outlets.size());
+  if (const auto prestress = prestress_hash(c.mesh.data); prestress != 0) hash.add(&prestress, sizeof prestress);
+  return hash.value();
+}
 
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
   return Run(c, request, comm, screen).steps();
@@ -428,6 +488,8 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
   });
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = parse_case(c.text, request.case_file);
+  name_faces(c.settings, c.mesh, comm);
+  c.outlets = take_tuned_outlets(comm, c.settings);
   return run_case(c, request, comm, screen);
 }
 

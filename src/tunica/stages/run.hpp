@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tunica/stages/case.hpp"
 #include "tunica/stages/load_mesh.hpp"
@@ -21,6 +23,7 @@ struct RunRequest {
   std::optional<std::filesystem::path> restart_file;  ///< go on from this checkpoint
   bool overwrite = false;                             ///< results in the folder may be removed
   std::optional<std::int64_t> until;                  ///< stop when so many steps are completed
+  std::string resume;  ///< command that goes on with a run that a signal has stopped; empty: `tunica run ... --restart`
   ProgramVersion program;
 };
 
@@ -43,9 +46,13 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen);
 struct ReadCase {
   Case settings;
   std::string text;
+  std::string outlets;  ///< text of the file of tuned outlets that `settings` has taken over; empty without
   CheckedMesh mesh;
   std::vector<std::string> warnings;  ///< on rank 0: of values in the case that look like slips
 };
+
+/// What tells results of this case from those of another: of its text, its outlets and its prestress. For rank 0.
+std::uint64_t case_hash(const ReadCase& c);
 
 /// The same for a case at hand; `request.case_file` serves messages only. Collective.
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen);

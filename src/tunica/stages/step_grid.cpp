@@ -1,5 +1,6 @@
 #include "tunica/stages/step_grid.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace tunica::stages {
@@ -29,10 +30,11 @@ double StepGrid::time() const {
          position_.nominal * (static_cast<double>(position_.done - position_.base_step) + fraction);
 }
 
-void StepGrid::accept() {
+void StepGrid::accept(int wanted) {
   position_.part += whole >> position_.level;
   // A larger part may begin wherever one could have begun had nothing been rejected.
-  if (position_.level > 0 && position_.part % (whole >> (position_.level - 1)) == 0) --position_.level;
+  if (position_.level > wanted && position_.part % (whole >> (position_.level - 1)) == 0) --position_.level;
+  position_.level = std::max(position_.level, std::min(wanted, max_halvings_));
   if (position_.part < whole) return;
   position_.part = 0;
   ++position_.done;

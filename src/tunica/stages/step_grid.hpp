@@ -34,8 +34,9 @@ class StepGrid {
   /// Size of the next step.
   double next_step() const { return position_.nominal / static_cast<double>(std::int64_t{1} << position_.level); }
 
-  /// The next step was accepted.
-  void accept();
+  /// The next step was accepted. `wanted`: level that the following steps shall come to, at once where it is finer, and
+  /// where it is coarser as soon as parts fill a larger one.
+  void accept(int wanted = 0);
   /// The next step was rejected and is halved; false when it may not be.
   bool halve();
 

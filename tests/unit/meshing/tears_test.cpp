@@ -7,6 +7,7 @@
 #include "block_vessel.hpp"
 #include "tunica/stages/meshing/canvas.hpp"
 #include "tunica/stages/meshing/element_cut.hpp"
+#include "tunica/stages/page.hpp"
 
 namespace tunica::stages::meshing {
 namespace {
@@ -64,7 +65,7 @@ TEST(Canvas, DrawsWhatIsInFront) {
   EXPECT_EQ(canvas.png(), red);
   square(1, 0.5, {0, 0, 200});
   EXPECT_NE(canvas.png(), red);
-  EXPECT_EQ(data_url({'P', 'N', 'G', '!'}), "data:image/png;base64,UE5HIQ==");
+  EXPECT_EQ(page::data_url({'P', 'N', 'G', '!'}), "data:image/png;base64,UE5HIQ==");
 }
 
 }  // namespace

@@ -164,5 +164,26 @@ TEST(Case, TablesAreReadAndTheirErrorsNameTheFace) {
   }
 }
 
+TEST(Case, OutletsByFractions) {
+  const std::string head = "analysis: flow\nmeshes: {tube: {radius: 1 mm, length: 1 mm}}\n" + fluid_part + time_part,
+                    faces = "boundary: {lumen_inlet: {flow: 1 ml/s}, lumen_wall: no_slip}\n";
+  const auto outlets = [](const std::string& fractions, const std::string& more = "") {
+    return "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {" + fractions + "}" + more + "}\n";
+  };
+  const Case c = parse_case(head + faces + outlets("a: 0.2, lumen_outlet: 0.795"), "folder/case.yaml");
+  ASSERT_EQ(c.boundary.size(), 4u);
+  EXPECT_EQ(c.boundary[3].first, "lumen_outlet");
+  EXPECT_NEAR(c.outlets->fractions[0].second + c.outlets->fractions[1].second, 1.0, 1e-15);
+  EXPECT_NEAR(std::get<bc::Resistance>(c.boundary[2].second).resistance /
+                  std::get<bc::Resistance>(c.boundary[3].second).resistance,
+              0.795 / 0.2, 1e-12);
+  EXPECT_EQ(c.outlets->file(), "folder/outlets/outlets.yaml");
+  EXPECT_TRUE(mentions(problems_of(head + faces + outlets("a: 0.2, b: 0.7")), "outlets.fractions", "add up to 0.9"));
+  EXPECT_TRUE(mentions(problems_of(head + faces + outlets("lumen_wall: 1")), "boundary.lumen_wall",
+                       "is an outlet of `outlets.fractions` as well"));
+  EXPECT_TRUE(mentions(problems_of(head + faces + outlets("a: 1", ", distal_pressure: 80 mmHg")),
+                       "outlets.distal_pressure", "not below"));
+}
+
 }  // namespace
 }  // namespace tunica::stages

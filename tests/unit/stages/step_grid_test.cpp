@@ -52,5 +52,21 @@ TEST(StepGrid, GoesOnFromAPosition) {
   EXPECT_DOUBLE_EQ(finer.time(), 0.77);
 }
 
+TEST(StepGrid, WantedLevelIsTakenAtOnceOrAsSoonAsPartsFill) {
+  StepGrid grid(1.0, 5);
+  grid.accept(2);
+  EXPECT_EQ(grid.level(), 2);
+  EXPECT_EQ(grid.time(), 1.0);
+  grid.accept(0);  // a quarter does not fill a half
+  EXPECT_EQ(grid.level(), 2);
+  grid.accept(0);
+  EXPECT_EQ(grid.level(), 1);
+  grid.accept(1);
+  EXPECT_EQ(grid.level(), 1);
+  EXPECT_EQ(grid.time(), 2.0);
+  grid.accept(9);
+  EXPECT_EQ(grid.level(), 5);
+}
+
 }  // namespace
 }  // namespace tunica::stages

@@ -114,15 +114,4 @@ Colour scale_colour(double value) {
   return colour;
 }
 
-std::string data_url(const std::vector<std::uint8_t>& png) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text = "data:image/png;base64,";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < png.size() ? png[i + k] : 0u; };
-    const std::uint32_t three = (byte(0) << 16) | (byte(1) << 8) | byte(2);
-    for (int k = 0; k < 4; ++k) text += i + k > png.size() ? '=' : digits[(three >> (18 - 6 * k)) & 63];
-  }
-  return text;
-}
-
 }  // namespace tunica::stages::meshing

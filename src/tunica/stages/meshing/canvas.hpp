@@ -42,7 +42,5 @@ class Canvas {
 
 /// A colour scale from dark blue over green to yellow, for values from 0 to 1.
 Colour scale_colour(double value);
-/// "data:image/png;base64,..." for an <img>.
-std::string data_url(const std::vector<std::uint8_t>& png);
 
 }  // namespace tunica::stages::meshing

@@ -8,6 +8,7 @@
 
 #include "tunica/stages/meshing/canvas.hpp"
 #include "tunica/stages/meshing/element_cut.hpp"
+#include "tunica/stages/page.hpp"
 #include "tunica/stages/plot.hpp"
 
 namespace tunica::stages::meshing {
@@ -23,8 +24,7 @@ constexpr std::array<Colour, 4> region_colours = {{{192, 57, 43}, {41, 98, 155},
 std::string hex(const Colour& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
 
 std::string figure(const Canvas& canvas, const std::string& caption) {
-  return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     data_url(canvas.png()), caption, caption);
+  return page::picture(page::data_url(canvas.png()), caption);
 }
 
 std::string legend(const std::vector<std::pair<std::string, Colour>>& entries) {
@@ -199,42 +199,37 @@ std::string histogram(const json& counts, double bin, const std::string& title, 
     }
     at += bin;
   }
-  return "<figure>" +
-         draw_plot({bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}) +
-         "</figure>\n";
-}
-
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string text = "<tr>";
-  for (const auto& c : cells) text += fmt::format("<{0}>{1}</{0}>", tag, c);
-  return text + "</tr>\n";
+  return page::drawing(
+      draw_plot({bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
 }
 
 std::string number(const json& value, int digits) { return fmt::format("{:.{}f}", value.get<double>(), digits); }
 
 std::string tables(const json& r) {
-  std::string text =
-      "<h2>Regions in numbers</h2>\n<table>\n" +
-      row({"region", "elements", "volume [ml]", "smallest dihedral angle", "exceeded by 99.99 %", "mean edge [mm]"},
-          "th");
+  std::string text = "<h2>Regions in numbers</h2>\n<table>\n" +
+                     page::row({"region", "elements", "volume [ml]", "smallest dihedral angle", "exceeded by 99.99 %",
+                                "mean edge [mm]"},
+                               "th");
   const auto line = [&](const std::string& name, const json& s, const std::string& volume) {
-    text += row({name, std::to_string(s["elements"].get<Index>()), volume, number(s["smallest_dihedral_deg"], 1) + "°",
-                 number(s["dihedral_of_worst_0.01_percent_deg"], 1) + "°", number(s["edge_mm"]["mean"], 2)});
+    text += page::row({name, std::to_string(s["elements"].get<Index>()), volume,
+                       number(s["smallest_dihedral_deg"], 1) + "°",
+                       number(s["dihedral_of_worst_0.01_percent_deg"], 1) + "°", number(s["edge_mm"]["mean"], 2)});
   };
   for (const auto& region : r["regions"]) line(region["name"], region, number(region["volume_ml"], 2));
   line("all", r["shapes"], "");
-  text += "</table>\n<h2>Faces</h2>\n<table>\n" + row({"face", "triangles", "area [mm²]"}, "th");
+  text += "</table>\n<h2>Faces</h2>\n<table>\n" + page::row({"face", "triangles", "area [mm²]"}, "th");
   for (const auto& face : r["faces"])
-    text += row({face["name"], std::to_string(face["triangles"].get<Index>()), number(face["area_mm2"], 1)});
-  text += "</table>\n<h2>Tears</h2>\n<table>\n" + row({"tear", "area [mm²]", "centre [mm]"}, "th");
+    text += page::row({face["name"], std::to_string(face["triangles"].get<Index>()), number(face["area_mm2"], 1)});
+  text += "</table>\n<h2>Tears</h2>\n<table>\n" + page::row({"tear", "area [mm²]", "centre [mm]"}, "th");
   int count = 0;
   for (const auto& tear : r["tears"])
-    text += row({std::to_string(++count), number(tear["area_mm2"], 1),
-                 fmt::format("{:.1f}, {:.1f}, {:.1f}", tear["centre_mm"][0].get<double>(),
-                             tear["centre_mm"][1].get<double>(), tear["centre_mm"][2].get<double>())});
-  text += "</table>\n<h2>Thickness</h2>\n<table>\n" + row({"of", "5 % [mm]", "median [mm]", "95 % [mm]"}, "th");
+    text += page::row({std::to_string(++count), number(tear["area_mm2"], 1),
+                       fmt::format("{:.1f}, {:.1f}, {:.1f}", tear["centre_mm"][0].get<double>(),
+                                   tear["centre_mm"][1].get<double>(), tear["centre_mm"][2].get<double>())});
+  text += "</table>\n<h2>Thickness</h2>\n<table>\n" + page::row({"of", "5 % [mm]", "median [mm]", "95 % [mm]"}, "th");
   for (const auto& [name, values] : r["thickness_mm"].items())
-    text += row({name, number(values["5_percent"], 2), number(values["median"], 2), number(values["95_percent"], 2)});
+    text +=
+        page::row({name, number(values["5_percent"], 2), number(values["median"], 2), number(values["95_percent"], 2)});
   return text + "</table>\n";
 }
 
@@ -256,28 +251,17 @@ std::string summary(const json& r) {
       number(r["peak_memory_mb"], 0));
 }
 
-constexpr const char* style =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;color:#222}"
-    "figure{display:inline-block;margin:0 1em 1em 0;vertical-align:top}figcaption{color:#555;max-width:34em}"
-    "table{border-collapse:collapse;margin-bottom:1em}td,th{padding:.2em .8em;border-bottom:1px solid #ddd;"
-    "text-align:right}td:first-child,th:first-child{text-align:left}.legend i{display:inline-block;width:1em;"
-    "height:1em;margin-right:.4em;vertical-align:-.15em}.legend span{margin-right:1.2em}";
-
 }  // namespace
 
 std::string mesh_page(const MeshPageInput& in) {
   const auto& shapes = in.report["shapes"];
   const std::string title = in.title.empty() ? "Mesh" : in.title;
-  return fmt::format(
-             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style>"
-             "</head>\n<body>\n<h1>{0}</h1>\n",
-             title, style) +
-         summary(in.report) + pictures(in) + "<h2>Shapes</h2>\n" +
+  return page::begin(title) + summary(in.report) + pictures(in) + "<h2>Shapes</h2>\n" +
          histogram(shapes["dihedral_histogram_5_deg"], 5, "Smallest dihedral angle of each element",
                    "angle [degrees]") +
          histogram(shapes["radius_ratio_histogram_0.1"], 0.1, "Radius ratio of each element (1: regular)",
                    "3 inradius / circumradius") +
-         tables(in.report) + "</body></html>\n";
+         tables(in.report) + page::end();
 }
 
 }  // namespace tunica::stages::meshing

@@ -182,6 +182,7 @@ void PrestressRun::read() {
   });
   parallel::broadcast(comm_, text_);
   if (parallel::rank(comm_) != 0) case_ = parse_case(text_, request_.case_file);
+  name_faces(case_, whole_, comm_);
   if (case_.wall) case_.wall->prestress.reset();
   parallel::broadcast(comm_, mesh_hash_);
   parallel::broadcast(comm_, lumen_hash_);
@@ -216,14 +217,16 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
   const fs::path file = folder_ / "flow.checkpoint";
   if (request_.keep_flow) {
     flow_ = read_checkpoint(file, lumen_, flow_, lumen_hash_).state;
-    flow.steps = 1;  // for the forces, which belong to a step
+    flow.steps = 1;  // the last one again, for the forces, which belong to a step
+    flow.step = flow_.dt;
   }
   std::optional<parallel::Progress> bar;
   bar.emplace(*log_, "steady flow", 0.0, flow.steps);
-  steady_ = step_to_steady_state(problem, flow_, flow, [&](const SteadyRecord& r) {
+  const auto [last, before_last] = step_to_steady_state(problem, flow_, flow, [&](const SteadyRecord& r) {
     bar->update(r.step,
                 fmt::format("velocity changes by {:.1e}, pressure by {:.1e}", r.velocity_change, r.pressure_change));
   });
+  steady_ = last;
   bar.reset();
   const auto& units = case_.output.units;
   log_->info(fmt::format(
@@ -237,7 +240,7 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
         fmt::format("the flow is not steady: asked were changes of {:.1e} in a step. The prestress belongs "
                     "to its last instant",
                     flow.tolerance));
-  write_checkpoint(file, lumen_, {flow_, {}, 0, lumen_hash_});
+  if (!request_.keep_flow) write_checkpoint(file, lumen_, {before_last, {}, 0, lumen_hash_});
 }
 
 void PrestressRun::write_flow(const coupling::Problem& problem, const Case& flow) {

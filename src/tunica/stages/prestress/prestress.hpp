@@ -20,7 +20,8 @@ struct PrestressRequest {
 };
 
 /// Finds the prestress of the wall and writes into the folder of results:
-/// - flow.checkpoint, flow/: the steady flow between rigid walls, before anything is done with the wall; boundary.yaml,
+/// - flow.checkpoint, flow/: the steady flow between rigid walls, one step before its end and at its end;
+/// boundary.yaml,
 ///   its conditions;
 /// - traction/: its traction on the wall;
 /// - fixed_point.csv, fixed_point.svg: how the fixed point converged, line by line;

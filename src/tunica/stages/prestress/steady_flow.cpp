@@ -105,25 +105,27 @@ std::string conditions_text(const FaceConditions& conditions, const std::vector<
   return text;
 }
 
-SteadyRecord step_to_steady_state(coupling::Problem& problem, coupling::State& state, const SteadyFlow& flow,
-                                  const std::function<void(const SteadyRecord&)>& follow) {
-  SteadyRecord record;
+SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const SteadyFlow& flow,
+                                 const std::function<void(const SteadyRecord&)>& follow) {
+  SteadySteps steps;
+  SteadyRecord& record = steps.last;
   double dt = flow.step;
   for (int step = 1; step <= flow.steps; ++step) {
-    const coupling::State before = state;
+    steps.before_last = state;
     coupling::StepReport report;
     for (int halvings = 0; !(report = problem.advance(state, dt)).converged; ++halvings, dt *= 0.5)
       if (halvings == most_halvings)
         throw SolverError(
             fmt::format("the steady flow failed in step {} from t = {:.6g} s with steps down to {:.3g} s: {}", step,
                         state.time, dt, report.failure));
-    record = compare(problem.mesh(), before, state);
-    record.step = step;
+    record = compare(problem.mesh(), steps.before_last, state);
+    record.step = static_cast<int>(state.step);
+    steps.before_last.dt = record.dt;
     follow(record);
     if (std::max(record.velocity_change, record.pressure_change) * flow.step <= flow.tolerance * dt) break;
     dt = std::min(flow.step, 2 * dt);
   }
-  return record;
+  return steps;
 }
 
 std::vector<double> forces_on_wall(const coupling::Problem& problem) {

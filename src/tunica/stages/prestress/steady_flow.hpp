@@ -31,10 +31,15 @@ struct SteadyRecord {
   double largest_velocity = 0, largest_pressure = 0;  ///< m/s, Pa
 };
 
-/// Steps `problem` from `state` until nothing changes or the steps are used up; returns the last record. A step that
-/// fails is halved; throws SolverError after six halvings. Collective.
-SteadyRecord step_to_steady_state(coupling::Problem& problem, coupling::State& state, const SteadyFlow& flow,
-                                  const std::function<void(const SteadyRecord&)>& follow);
+struct SteadySteps {
+  SteadyRecord last;
+  coupling::State before_last;  ///< what the last step started from; its dt is that of the step to come
+};
+
+/// Steps `problem` from `state` until nothing changes or the steps are used up. A step that fails is halved; throws
+/// SolverError after six halvings. Collective.
+SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const SteadyFlow& flow,
+                                 const std::function<void(const SteadyRecord&)>& follow);
 
 /// Forces of the flow on the nodes of the vessel's inside [N], [local node][4], in the step that `problem` last
 /// accepted: the residual of the lumen elements, which is what acts on the wall in the coupled system, (5.3).

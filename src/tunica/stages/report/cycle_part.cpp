@@ -1,0 +1,163 @@
+// Figures of a cycle, as docs/post.md lays them out.
+#include <fmt/format.h>
+
+#include "tunica/stages/page.hpp"
+#include "tunica/stages/report/parts.hpp"
+
+namespace tunica::stages::report {
+
+namespace {
+
+json at(const json& object, const std::string& path) {
+  const json::json_pointer pointer("/" + path);
+  return object.is_object() && object.contains(pointer) ? object.at(pointer) : json();
+}
+
+using Columns = std::vector<std::pair<std::string, std::string>>;  ///< heading, path
+
+std::string list_table(const json& list, const Columns& columns) {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [heading, path] : columns) head.push_back(heading);
+  for (const auto& entry : list) {
+    auto& cells = rows.emplace_back();
+    for (const auto& [heading, path] : columns) cells.push_back(figure(at(entry, path)));
+  }
+  return page::table(head, rows);
+}
+
+std::string openings(const json& post) {
+  if (!post.contains("openings")) return "";
+  return "<h3>Openings</h3>\n" + list_table(post["openings"], {{"opening", "name"},
+                                                               {"lumen", "lumen"},
+                                                               {"systolic [mmHg]", "pressure/systolic_mmHg"},
+                                                               {"diastolic [mmHg]", "pressure/diastolic_mmHg"},
+                                                               {"mean [mmHg]", "pressure/mean_mmHg"},
+                                                               {"mean outward flow [ml/s]", "flow_outwards/mean_ml_s"},
+                                                               {"largest", "flow_outwards/largest_ml_s"},
+                                                               {"smallest", "flow_outwards/smallest_ml_s"},
+                                                               {"share of the outflow", "share_of_outflow"}});
+}
+
+std::string tears(const json& post) {
+  if (!post.contains("tears")) return "";
+  std::string text = "<h3>Tears and false lumen</h3>\n" +
+                     list_table(post["tears"], {{"tear", "name"},
+                                                {"entry", "entry"},
+                                                {"from the inlet [mm]", "distance_mm"},
+                                                {"area [mm²]", "area_mm2"},
+                                                {"into the false lumen [ml]", "volume_into_false_lumen_ml"},
+                                                {"out of it [ml]", "volume_out_of_false_lumen_ml"},
+                                                {"mean flow into it [ml/s]", "flow_into_false_lumen/mean_ml_s"},
+                                                {"largest", "flow_into_false_lumen/largest_ml_s"},
+                                                {"smallest", "flow_into_false_lumen/smallest_ml_s"}});
+  const json lumen = at(post, "false_lumen");
+  return text +
+         page::table({"false lumen", ""}, {{"ejection fraction (0 to 1)", figure(at(lumen, "ejection_fraction"))},
+                                           {"mean volume [ml]", figure(at(lumen, "volume/mean_ml"))},
+                                           {"largest volume [ml]", figure(at(lumen, "volume/largest_ml"))},
+                                           {"smallest volume [ml]", figure(at(lumen, "volume/smallest_ml"))},
+                                           {"largest residual of its mass balance [ml/s]",
+                                            figure(at(lumen, "mass_balance/largest_residual_ml_s"))},
+                                           {"the same, of the largest flow through a tear",
+                                            figure(at(lumen, "mass_balance/largest_residual_of_largest_flow"))}});
+}
+
+std::string flap(const json& post) {
+  const json f = at(post, "flap");
+  if (f.is_null()) return "";
+  return "<h3>Flap</h3>\n" +
+         page::table({"displacement since the start of the window", ""},
+                     {{"largest [mm]", figure(at(f, "largest_displacement_mm"))},
+                      {"at [s]", figure(at(f, "time_of_largest_s"))},
+                      {"largest mean over the flap [mm]", figure(at(f, "largest_mean_displacement_mm"))},
+                      {"mean over flap and cycle [mm]", figure(at(f, "mean_displacement_over_the_cycle_mm"))}});
+}
+
+std::string wall_shear(const json& post) {
+  const json shear = at(post, "wall_shear");
+  if (shear.is_null()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, key] : {std::pair{"TAWSS [Pa]", "tawss_Pa"}, {"OSI", "osi"}, {"RRT [1/Pa]", "rrt_1_Pa"}}) {
+    auto& cells = rows.emplace_back(std::vector<std::string>{name});
+    for (const char* share : {"mean", "p5", "p50", "p95", "p99"})
+      cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))));
+  }
+  return "<h3>Wall shear</h3>\n" + page::table({"by area of the wall", "mean", "5 %", "median", "95 %", "99 %"}, rows);
+}
+
+/// "von_mises_stress_kPa" -> "von mises stress [kPa]".
+std::string name_of(std::string key) {
+  const std::string unit = "_kPa";
+  if (key.ends_with(unit)) key = key.substr(0, key.size() - unit.size()) + " [kPa]";
+  for (char& c : key) c = c == '_' ? ' ' : c;
+  return key;
+}
+
+std::string stress(const json& post) {
+  if (!post.contains("stress")) return "";
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& region : post["stress"])
+    for (const auto& [key, values] : region.items()) {
+      if (!values.is_object()) continue;
+      head = {"region", "stress"};
+      std::vector<std::string> cells = {page::escaped(region.value("name", "")), page::escaped(name_of(key))};
+      for (const auto& [when, label] :
+           {std::pair{"at_peak", "at peak pressure"}, {"cycle_maximum", "largest of the cycle"}})
+        for (const auto& [percent, value] : values[when].items()) {
+          head.push_back(fmt::format("{}, {}", label, percent == "mean" ? "mean" : percent.substr(1) + " %"));
+          cells.push_back(figure(value));
+        }
+      rows.push_back(cells);
+    }
+  return "<h3>Stress in the wall, percentiles by volume</h3>\n" + page::table(head, rows);
+}
+
+std::string difference(const json& post) {
+  if (!post.contains("stations") || post["stations"].empty()) return "";
+  if (!post["stations"][0].contains("true_minus_false_pressure") &&
+      !post["stations"].back().contains("true_minus_false_pressure") && !post.contains("false_lumen"))
+    return "";
+  json list = json::array();
+  for (const auto& station : post["stations"])
+    if (station.contains("true_minus_false_pressure") && station["true_minus_false_pressure"].is_object())
+      list.push_back(station);
+  return "<h3>True less false lumen</h3>\n<details><summary>Pressure difference along the aorta</summary>\n" +
+         list_table(list, {{"from the inlet [mm]", "distance_mm"},
+                           {"mean [mmHg]", "true_minus_false_pressure/mean_mmHg"},
+                           {"largest", "true_minus_false_pressure/largest_mmHg"},
+                           {"smallest", "true_minus_false_pressure/smallest_mmHg"},
+                           {"area of the true lumen [mm²]", "true_lumen/area/mean_mm2"},
+                           {"of the false one", "false_lumen/area/mean_mm2"}}) +
+         "</details>\n";
+}
+
+}  // namespace
+
+std::string cycle_part(const Results& r) {
+  std::string text = "<h2 id=\"cycle\">Figures of the cycle</h2>\n";
+  if (r.post.is_null())
+    return text + missing("Figures of the cycle", "the case has no stage `post`, or it is not done");
+  text += fmt::format("<p>From {} s to {} s, {} fields; highest pressure at {} s.</p>\n",
+                      figure(at(r.post, "window/from_s")), figure(at(r.post, "window/until_s")),
+                      figure(at(r.post, "window/fields")), figure(at(r.post, "peak_s")));
+  for (const auto& left : at(r.post, "left_out")) text += missing(left.value("part", ""), left.value("why", ""));
+  for (const auto& warning : at(r.post, "warnings")) text += missing("Warning", warning.get<std::string>());
+  const auto folder = r.folder("post");
+  return text + openings(r.post) +
+         drawings(folder, {{"openings_pressure.svg", "Pressure at the openings"},
+                           {"openings_flow.svg", "Flow out of the openings"}}) +
+         difference(r.post) +
+         drawings(folder,
+                  {{"pressure_difference.svg", "Pressure of the true less that of the false lumen, along the aorta"},
+                   {"pressure_difference_in_time.svg", "The same in time"},
+                   {"pressure.svg", "Pressure along the aorta"},
+                   {"area.svg", "Area of the lumens along the aorta"},
+                   {"flow.svg", "Flow along the aorta"}}) +
+         tears(r.post) + drawings(folder, {{"tears.svg", "Flow through the tears into the false lumen"}}) +
+         flap(r.post) + drawings(folder, {{"flap.svg", "Displacement of the flap"}}) + wall_shear(r.post) +
+         stress(r.post) + drawings(folder, {{"stress.svg", "Stress in the wall over time"}});
+}
+
+}  // namespace tunica::stages::report

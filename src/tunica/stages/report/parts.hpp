@@ -1,0 +1,45 @@
+// The parts of the page, each as HTML.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tunica/stages/phases.hpp"
+#include "tunica/stages/report/report.hpp"
+
+namespace tunica::stages::report {
+
+using nlohmann::json;
+
+/// What the stages left, as far as it is there; null where it is not.
+struct Results {
+  const ReportCase& report;
+  json mesh, fibres, prestress, tuning, manifest, post;
+  std::map<std::string, json> records;  ///< stage.json by the name of the stage
+
+  std::filesystem::path folder(const std::string& stage) const;  ///< empty when the case has no such stage
+};
+/// Throws InputError for a file that does not read.
+Results read_results(const ReportCase& report);
+
+/// A number with so many significant digits; "–" for null.
+std::string figure(const json& value, int digits = 4);
+/// A line that says what the page lacks, and why.
+std::string missing(const std::string& what, const std::string& why);
+/// Drawings (.svg) of a folder with a line below each; nothing for those that are not there.
+std::string drawings(const std::filesystem::path& folder,
+                     const std::vector<std::pair<std::string, std::string>>& captions_by_file);
+
+std::string summary_part(const Results& r, const ProgramVersion& program);
+std::string mesh_part(const Results& r);
+std::string fibres_part(const Results& r);
+std::string prestress_part(const Results& r);
+std::string outlets_part(const Results& r);
+std::string run_part(const Results& r);
+std::string cycle_part(const Results& r);
+std::string pictures_part(const Results& r, const Say& say);
+
+}  // namespace tunica::stages::report

@@ -1,0 +1,195 @@
+// Pictures of the fields, where there is a display to draw on.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "tunica/base/error.hpp"
+#include "tunica/stages/page.hpp"
+#include "tunica/stages/picture.hpp"
+#include "tunica/stages/report/parts.hpp"
+
+namespace tunica::stages::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Vec3<double> vector_of(const json& list) {
+  return {{list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}};
+}
+
+Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
+
+/// The plane in which a curved vessel lies: through the middle of its stations, normal to the direction in which they
+/// are spread least, found by power iteration on the matrix that turns the order of its eigenvalues round.
+std::optional<ClipPlane> plane_of(const std::vector<Vec3<double>>& places) {
+  if (places.size() < 3) return std::nullopt;
+  Vec3<double> middle{};
+  for (const auto& p : places) middle = middle + (1.0 / static_cast<double>(places.size())) * p;
+  Mat3<double> spread{};
+  double trace = 0;
+  for (const auto& p : places) {
+    const auto d = p - middle;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) spread(i, j) -= d[i] * d[j];
+    trace += dot(d, d);
+  }
+  for (int i = 0; i < 3; ++i) spread(i, i) += trace;
+  Vec3<double> normal = unit(Vec3<double>{{0.6, 0.7, 0.4}});
+  for (int k = 0; k < 200; ++k) normal = unit(spread * normal);
+  return ClipPlane{middle, normal};
+}
+
+/// What is drawn of a case, in the unit of its files.
+struct Scene {
+  std::vector<std::string> lumen, wall;  ///< series of fields
+  std::optional<double> peak;            ///< s
+  std::string shear;                     ///< wall_shear.vtp
+  std::optional<ClipPlane> plane;
+  std::vector<std::pair<std::string, ClipPlane>> cuts;  ///< across the vessel, at places of interest
+};
+
+/// `per_mm`: units of the fields in a millimetre.
+void add_cuts(const json& post, double per_mm, Scene& scene) {
+  if (post.is_null() || !post.contains("stations")) return;
+  std::vector<Vec3<double>> centres;
+  for (const auto& station : post["stations"]) centres.push_back(per_mm * vector_of(station.at("centre_mm")));
+  scene.plane = plane_of(centres);
+  if (!post.contains("tears") || centres.size() < 2) return;
+  for (const auto& tear : post["tears"]) {
+    const auto place = per_mm * vector_of(tear.at("centre_mm"));
+    const auto nearest =
+        std::min_element(centres.begin(), centres.end(),
+                         [&](const auto& a, const auto& b) { return norm(a - place) < norm(b - place); }) -
+        centres.begin();
+    const auto from = std::max<std::ptrdiff_t>(0, nearest - 1),
+               to = std::min<std::ptrdiff_t>(std::ssize(centres) - 1, nearest + 1);
+    scene.cuts.emplace_back(
+        tear.value("name", "tear"),
+        ClipPlane{place, unit(centres[static_cast<std::size_t>(to)] - centres[static_cast<std::size_t>(from)])});
+  }
+}
+
+Scene scene_of(const Results& r) {
+  Scene scene;
+  if (r.manifest.is_object())
+    for (const auto& region : r.manifest["mesh"]["regions"]) {
+      const std::string name = region.at("name");
+      const fs::path series = r.folder("run") / (name + ".pvd");
+      if (fs::exists(series)) (name == "lumen" ? scene.lumen : scene.wall).push_back(series.string());
+    }
+  if (r.post.is_object() && r.post.contains("peak_s")) scene.peak = r.post["peak_s"].get<double>();
+  if (const auto shear = r.folder("post") / "wall_shear.vtp"; !r.folder("post").empty() && fs::exists(shear))
+    scene.shear = shear.string();
+  add_cuts(r.post, 1e-3 / r.report.metres_per_unit, scene);
+  return scene;
+}
+
+/// Draws one picture after the other into the page.
+class Album {
+ public:
+  Album(const fs::path& folder, const Say& say) : file_((folder / "picture.png").string()), say_(say) {}
+  ~Album() {
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+  }
+
+  /// A picture that cannot be drawn, as one of an array that the results do not hold, is named with the reason.
+  void add(PictureOptions options, const std::string& caption) {
+    options.output = file_;
+    options.width = 560;
+    options.height = 640;
+    say_("picture: " + caption);
+    try {
+      render(options);
+    } catch (const InputError& error) {
+      text += missing(caption, error.what());
+      return;
+    }
+    std::ifstream stream(file_, std::ios::binary);
+    text += page::picture(page::data_url({std::istreambuf_iterator<char>(stream), {}}), caption);
+  }
+  std::string text;
+
+ private:
+  std::string file_;
+  Say say_;
+};
+
+void draw_fields(const Scene& scene, Album& album) {
+  const auto of = [&](const std::vector<std::string>& inputs, const std::string& array) {
+    PictureOptions options;
+    options.inputs = inputs;
+    options.array = array;
+    options.time = scene.peak;
+    if (scene.plane) options.view = scene.plane->normal;
+    return options;
+  };
+  const std::string when = scene.peak ? "at peak pressure" : "at the end";
+  if (!scene.lumen.empty()) {
+    album.add(of(scene.lumen, "pressure"), "Pressure of the blood " + when);
+    if (scene.plane) {
+      auto cut = of(scene.lumen, "velocity");
+      cut.clip = scene.plane;
+      album.add(cut, "Velocity in a plane along the aorta, " + when);
+    }
+  }
+  if (!scene.wall.empty()) {
+    album.add(of(scene.wall, "displacement"), "Displacement of the wall " + when);
+    album.add(of(scene.wall, "von Mises stress"), "Stress in the wall " + when);
+    if (scene.plane) {
+      auto cut = of(scene.wall, "von Mises stress");
+      cut.clip = scene.plane;
+      album.add(cut, "Stress in wall and flap, cut along the aorta");
+    }
+  }
+}
+
+void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
+  for (const auto& [name, plane] : scene.cuts)
+    for (const auto& [inputs, array] :
+         {std::pair{&scene.lumen, "velocity"}, std::pair{&scene.wall, "von Mises stress"}}) {
+      if (inputs->empty()) continue;
+      PictureOptions options;
+      options.inputs = *inputs;
+      options.array = array;
+      options.time = scene.peak;
+      options.clip = plane;
+      options.view = plane.normal;
+      options.up = std::abs(unit(plane.normal)[2]) > 0.8 ? Vec3<double>{{0, 1, 0}} : Vec3<double>{{0, 0, 1}};
+      options.focus = Focus{plane.origin, 0.03 / metres_per_unit};
+      album.add(options, fmt::format("{} across the vessel at {}", array, name));
+    }
+}
+
+}  // namespace
+
+std::string pictures_part(const Results& r, const Say& say) {
+  std::string text = "<h2 id=\"pictures\">Pictures</h2>\n";
+  if (!r.report.settings.pictures) return text + missing("Pictures", "not wanted (`pictures: false`)");
+  const Scene scene = scene_of(r);
+  if (scene.lumen.empty() && scene.wall.empty()) return text + missing("Pictures", "there are no fields of a run");
+  std::error_code ignored;
+  fs::create_directories(r.report.output, ignored);
+  Album album(r.report.output, say);
+  try {
+    draw_fields(scene, album);
+    draw_cuts(scene, r.report.metres_per_unit, album);
+    for (const char* array : {"TAWSS", "OSI"}) {
+      if (scene.shear.empty()) break;
+      PictureOptions options;
+      options.inputs = {scene.shear};
+      options.array = array;
+      if (scene.plane) options.view = scene.plane->normal;
+      album.add(options, fmt::format("{} on the wall of the lumen", array));
+    }
+  } catch (const SolverError& error) {  // no display
+    say(fmt::format("warning: no pictures in the report: {}", error.what()));
+    return text + album.text + missing("Pictures", error.what());
+  }
+  return text + album.text;
+}
+
+}  // namespace tunica::stages::report

@@ -1,0 +1,145 @@
+#include "tunica/stages/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tunica/base/error.hpp"
+#include "tunica/mesh/series_file.hpp"
+#include "tunica/stages/page.hpp"
+#include "tunica/stages/report/parts.hpp"
+
+namespace tunica::stages {
+
+namespace fs = std::filesystem;
+using config::Schema;
+
+namespace {
+
+Schema<fs::path> folder_schema() {
+  return Schema<fs::path>("folder", "Folder of a stage.")
+      .path(
+          "folder", [](fs::path& p) -> fs::path& { return p; }, "Folder")
+      .shorthand("folder");
+}
+
+std::string case_part(const ReportCase& report) {
+  return "<h2 id=\"case\">Case file</h2>\n<details><summary>" + page::escaped(report.case_file.filename().string()) +
+         "</summary><pre>" + page::escaped(config::read_text(report.case_file)) + "</pre></details>\n";
+}
+
+constexpr const char* contents =
+    "<nav><a href=\"#mesh\">mesh</a><a href=\"#fibres\">fibres</a><a href=\"#prestress\">prestress</a>"
+    "<a href=\"#outlets\">outlets</a><a href=\"#run\">run</a><a href=\"#cycle\">cycle</a>"
+    "<a href=\"#pictures\">pictures</a><a href=\"#case\">case file</a></nav>\n";
+
+}  // namespace
+
+Schema<ReportCase> ReportCase::schema() {
+  return Schema<ReportCase>("tunica report", "File of `tunica report`, in YAML like a case file.")
+      .text("title", &ReportCase::title, "Heading of the page")
+      .by_default()
+      .file("case", &ReportCase::case_file, "The case file, which stands at the end of the page")
+      .map("stages", &ReportCase::stages, folder_schema(),
+           "Folders of the stages mesh, fibres, prestress, outlets, run, post; those that are left out are missing")
+      .include(&ReportCase::settings, ReportSettings::schema())
+      .unit("length_unit", &ReportCase::metres_per_unit, config::dimension::length,
+            "Unit of the coordinates in the fields of the run")
+      .by_default()
+      .path("output", &ReportCase::output, "Folder of the page, relative to that of this file")
+      .by_default("report");
+}
+
+config::Parsed<ReportCase> read_report_case(const fs::path& file) {
+  return config::parse_file(ReportCase::schema(), file);
+}
+
+fs::path report_to_file(const ReportCase& report, const ProgramVersion& program, bool overwrite, const Say& say) {
+  const fs::path file = report.output / "report.html";
+  if (!overwrite && fs::exists(file))
+    throw InputError(file.string(), "is there already", "give --overwrite, or another `output`");
+  const auto results = report::read_results(report);
+  const std::string text = page::begin(report.title.empty() ? "Report" : report.title) + contents +
+                           report::summary_part(results, program) + report::mesh_part(results) +
+                           report::fibres_part(results) + report::prestress_part(results) +
+                           report::outlets_part(results) + report::run_part(results) + report::cycle_part(results) +
+                           report::pictures_part(results, say) + case_part(report) + page::end();
+  std::error_code error;
+  fs::create_directories(report.output, error);
+  if (error)
+    throw InputError(report.output.string(), fmt::format("cannot be made ({})", error.message()),
+                     "name a folder that can be created and written");
+  mesh::write_atomically(file, text);
+  return file;
+}
+
+namespace report {
+
+namespace {
+
+json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  if (file.empty() || !stream) return nullptr;
+  json read = json::parse(stream, nullptr, false);
+  if (read.is_discarded()) throw InputError(file.string(), "is no JSON", "do the stage anew that has written it");
+  return read;
+}
+
+}  // namespace
+
+fs::path Results::folder(const std::string& stage) const {
+  const auto at = report.stages.find(stage);
+  return at == report.stages.end() ? fs::path() : at->second;
+}
+
+Results read_results(const ReportCase& report) {
+  Results r{.report = report,
+            .mesh = {},
+            .fibres = {},
+            .prestress = {},
+            .tuning = {},
+            .manifest = {},
+            .post = {},
+            .records = {}};
+  const auto read = [&](const char* stage, const char* file) {
+    const fs::path folder = r.folder(stage);
+    return folder.empty() ? json() : read_json(folder / file);
+  };
+  r.mesh = read("mesh", "report.json");
+  r.fibres = read("fibres", "report.json");
+  r.prestress = read("prestress", "prestress.json");
+  r.tuning = read("outlets", "tuning.json");
+  r.manifest = read("run", "manifest.json");
+  r.post = read("post", "post.json");
+  for (const auto& [stage, folder] : report.stages)
+    if (auto record = read_json(folder / "stage.json"); !record.is_null()) r.records[stage] = std::move(record);
+  return r;
+}
+
+std::string figure(const json& value, int digits) {
+  if (value.is_string()) return page::escaped(value.get<std::string>());
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_integer()) return value.dump();
+  if (!value.is_number() || !std::isfinite(value.get<double>())) return "–";
+  return fmt::format("{:.{}g}", value.get<double>(), digits);
+}
+
+std::string missing(const std::string& what, const std::string& why) {
+  return fmt::format("<p class=\"missing\">{}: {}.</p>\n", page::escaped(what), page::escaped(why));
+}
+
+std::string drawings(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& captions_by_file) {
+  std::string text;
+  for (const auto& [file, caption] : captions_by_file) {
+    std::ifstream stream(folder / file, std::ios::binary);
+    if (!stream) continue;
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
+    text += page::picture(page::data_url(bytes, "svg+xml"), caption);
+  }
+  return text;
+}
+
+}  // namespace report
+
+}  // namespace tunica::stages

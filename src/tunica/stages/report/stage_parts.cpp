@@ -1,0 +1,148 @@
+// Summary, and the stages before the run.
+#include <fmt/format.h>
+
+#include "tunica/config/description.hpp"
+#include "tunica/stages/page.hpp"
+#include "tunica/stages/plot.hpp"
+#include "tunica/stages/report/parts.hpp"
+
+namespace tunica::stages::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double mmHg = 133.322387415;  // Pa
+
+json at(const json& object, const char* key) {
+  return object.is_object() && object.contains(key) ? object.at(key) : json();
+}
+
+std::string stage_table(const Results& r) {
+  std::vector<std::vector<std::string>> rows;
+  double total = 0;
+  for (const char* stage : {"mesh", "fibres", "prestress", "outlets", "run", "post"}) {
+    const auto found = r.records.find(stage);
+    if (found == r.records.end()) continue;
+    const json& record = found->second;
+    total += record.value("seconds", 0.0);
+    rows.push_back(
+        {stage, figure(at(record, "status")), fmt::format("{:.1f}", record.value("seconds", 0.0)),
+         figure(at(record, "ranks")), figure(at(record, "time")),
+         page::escaped(record["program"].value("version", "") + " " + record["program"].value("commit", ""))});
+  }
+  if (rows.empty()) return missing("Stages", "none of the folders holds a stage.json");
+  rows.push_back({"all", "", fmt::format("{:.1f}", total), "", "", ""});
+  return page::table({"stage", "status", "seconds", "ranks", "finished (UTC)", "program"}, rows);
+}
+
+/// What went into the run, key by key, in SI units.
+std::string settings_table(const Results& r) {
+  const auto run = r.records.find("run");
+  if (run == r.records.end()) return "";
+  std::vector<std::vector<std::string>> rows;
+  const json settings = at(run->second, "settings");
+  for (const auto& [key, value] : settings.items())
+    rows.push_back({page::escaped(key), page::escaped(value.get<std::string>())});
+  return "<details><summary>All settings of the run, in SI units</summary>\n" + page::table({"key", "value"}, rows) +
+         "</details>\n";
+}
+
+std::string histogram(const json& counts, double bin, const std::string& title, const std::string& label) {
+  Series bars{"", {}, {}};
+  double place = 0;
+  for (const auto& n : counts) {
+    for (const double x : {place, place + bin}) bars.x.push_back(x), bars.y.push_back(std::max(0.5, n.get<double>()));
+    place += bin;
+  }
+  return page::drawing(
+      draw_plot({bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
+}
+
+}  // namespace
+
+std::string summary_part(const Results& r, const ProgramVersion& program) {
+  std::string text = fmt::format("<p>tunica {} ({}).", page::escaped(program.version), page::escaped(program.commit));
+  if (const json mesh = at(r.manifest, "mesh"); mesh.is_object()) {
+    text += fmt::format(" {} nodes, {} elements", figure(at(mesh, "nodes")), figure(at(mesh, "elements")));
+    for (const auto& region : at(mesh, "regions"))
+      text += fmt::format(", {} {}", page::escaped(region.value("name", "")), figure(at(region, "elements")));
+    text += ".";
+  }
+  return text + "</p>\n<h2 id=\"stages\">Stages</h2>\n" + stage_table(r) + settings_table(r);
+}
+
+std::string mesh_part(const Results& r) {
+  std::string text = "<h2 id=\"mesh\">Mesh</h2>\n";
+  if (r.mesh.is_null()) return text + missing("Quality of the mesh", "the case has no stage `mesh`, or it is not done");
+  const fs::path page = r.folder("mesh") / "report.html";
+  if (!fs::exists(page)) return text + missing("Quality of the mesh", "report.html is not in the folder of the mesh");
+  return text + "<details><summary>" +
+         fmt::format("{} tetrahedra, smallest dihedral angle {}°; pictures, shapes, regions, tears",
+                     figure(at(r.mesh, "tetrahedra")), figure(r.mesh["shapes"]["smallest_dihedral_deg"], 3)) +
+         "</summary>\n" + page::body(config::read_text(page)) + "</details>\n";
+}
+
+std::string fibres_part(const Results& r) {
+  std::string text = "<h2 id=\"fibres\">Material directions</h2>\n";
+  if (r.fibres.is_null()) return text + missing("Directions", "the case has no stage `fibres`, or it is not done");
+  std::vector<std::vector<std::string>> rows;
+  const auto line = [&](const json& region, const std::string& name) {
+    rows.push_back({page::escaped(name), figure(at(region, "elements")),
+                    figure(at(region, "jump_above_30_deg_percent"), 3), figure(at(region, "mean_confidence"), 3)});
+  };
+  for (const auto& region : at(r.fibres, "regions")) line(region, region.value("name", ""));
+  line(at(r.fibres, "wall"), "all");
+  return text +
+         page::table({"region", "elements", "jump to a neighbour above 30° [%]", "mean confidence, 0 to 1"}, rows) +
+         histogram(r.fibres["wall"]["confidence_histogram_0.1"], 0.1, "Confidence of the directions", "confidence");
+}
+
+std::string prestress_part(const Results& r) {
+  std::string text = "<h2 id=\"prestress\">Prestress</h2>\n";
+  if (r.prestress.is_null()) return text + missing("Prestress", "the case has no stage `prestress`, or it is not done");
+  std::vector<std::vector<std::string>> rows = {
+      {"converged", figure(at(r.prestress, "converged"))},
+      {"iterations of the fixed point", figure(at(r.prestress, "iterations"))},
+      {"largest displacement under the load [mm]",
+       figure(1e3 * r.prestress.value("largest displacement [m]", std::nan("")), 3)}};
+  if (const json flow = at(r.prestress, "steady flow"); flow.is_object()) {
+    rows.push_back({"steps to the steady flow", figure(at(flow, "steps"))});
+    rows.push_back({"change of velocity in its last step [%]",
+                    figure(100 * flow.value("change of velocity in the last step", std::nan("")), 3)});
+    rows.push_back({"change of pressure in its last step [%]",
+                    figure(100 * flow.value("change of pressure in the last step", std::nan("")), 3)});
+  }
+  if (r.prestress.contains("failure")) rows.push_back({"failure", figure(at(r.prestress, "failure"))});
+  return text + page::table({"", ""}, rows) +
+         drawings(r.folder("prestress"), {{"fixed_point.svg", "Displacement of the imaged wall under its load"}});
+}
+
+std::string outlets_part(const Results& r) {
+  std::string text = "<h2 id=\"outlets\">Outlets</h2>\n";
+  if (r.tuning.is_null()) return text + missing("Tuned outlets", "the case has no stage `outlets`, or it is not done");
+  const json cycles = at(r.tuning, "cycles"), targets = at(r.tuning, "targets");
+  text += fmt::format("<p>Status: {}; tolerance {} %.</p>\n", figure(at(r.tuning, "status")),
+                      figure(100 * r.tuning.value("tolerance", std::nan("")), 3));
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> head = {"pressure at the inlet [mmHg]", "target"};
+  for (std::size_t k = 0; k < cycles.size(); ++k) head.push_back(fmt::format("cycle {} in 3D", k + 1));
+  for (const char* value : {"systolic", "diastolic", "mean"}) {
+    const std::string key = fmt::format("{} [Pa]", value);
+    std::vector<std::string> cells = {value, fmt::format("{:.1f}", targets.value(key, std::nan("")) / mmHg)};
+    for (const auto& cycle : cycles)
+      cells.push_back(fmt::format("{:.1f}", at(cycle, "measured").value(key, std::nan("")) / mmHg));
+    rows.push_back(cells);
+  }
+  text += page::table(head, rows);
+  rows.clear();
+  const json fractions = at(r.tuning, "target fractions");
+  for (const auto& [face, share] : fractions.items())
+    rows.push_back({page::escaped(face), figure(100 * share.get<double>(), 3),
+                    cycles.empty() ? "–" : figure(100 * cycles.back()["fractions"].value(face, std::nan("")), 3)});
+  return text + page::table({"outlet", "target [% of the outflow]", "last cycle [%]"}, rows) +
+         drawings(r.folder("outlets"), {{"tuning.svg", "Pressures cycle by cycle"},
+                                        {"pressure.svg", "The last cycle in 3D and in the 0D model"}});
+}
+
+}  // namespace tunica::stages::report

@@ -1,0 +1,124 @@
+#include "tunica/stages/tuning/identify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "tunica/config/units.hpp"
+#include "tunica/stages/csv_file.hpp"
+
+namespace tunica::stages {
+
+namespace {
+
+/// Steps at the start of a run that answer to the sudden onset rather than to the vessel.
+constexpr std::size_t onset = 2;
+
+double average(const Measured& run, const std::vector<double>& values, std::size_t from = 0) {
+  double sum = 0, duration = 0;
+  for (std::size_t k = from; k < values.size(); ++k) {
+    sum += values[k] * run.durations[k];
+    duration += run.durations[k];
+  }
+  return sum / duration;
+}
+
+double compliance(const Measured& run) {
+  const double p = average(run, run.inlet_pressure, onset), v = average(run, run.lumen_volume, onset);
+  double joint = 0, own = 0;
+  for (std::size_t k = onset; k < run.times.size(); ++k) {
+    joint += (run.lumen_volume[k] - v) * (run.inlet_pressure[k] - p);
+    own += (run.inlet_pressure[k] - p) * (run.inlet_pressure[k] - p);
+  }
+  return own > 0 ? std::max(joint / own, 0.0) : 0.0;
+}
+
+/// Least squares of drop = R Q + L dQ/dt with R, L >= 0.
+VesselPath path(const Measured& run, std::size_t outlet) {
+  const auto& flow = run.outlet_flow[outlet];
+  double qq = 0, qr = 0, rr = 0, dq = 0, dr = 0;
+  for (std::size_t k = onset; k + 1 < run.times.size(); ++k) {
+    const double q = flow[k], rate = (flow[k + 1] - flow[k - 1]) / (run.times[k + 1] - run.times[k - 1]),
+                 drop = run.inlet_pressure[k] - run.outlet_pressure[outlet][k];
+    qq += q * q, qr += q * rate, rr += rate * rate, dq += drop * q, dr += drop * rate;
+  }
+  const double det = qq * rr - qr * qr;
+  if (det > 1e-12 * qq * rr) {
+    const VesselPath both{(dq * rr - dr * qr) / det, (dr * qq - dq * qr) / det};
+    if (both.resistance >= 0 && both.inertance >= 0) return both;
+  }
+  // One of them is at its bound: the other alone, whichever leaves less.
+  const VesselPath resistance{qq > 0 ? std::max(dq / qq, 0.0) : 0, 0},
+      inertance{0, rr > 0 ? std::max(dr / rr, 0.0) : 0};
+  return resistance.resistance * dq >= inertance.inertance * dr ? resistance : inertance;
+}
+
+}  // namespace
+
+Measured read_measured(const std::filesystem::path& results, const Case& c, const std::string& inlet, double until) {
+  const auto& u = c.output.units;
+  namespace dimension = config::dimension;
+  const double time = config::unit_factor(u.time, dimension::time),
+               flow = config::unit_factor(u.flow, dimension::volume_flow),
+               pressure = config::unit_factor(u.pressure, dimension::pressure),
+               length = config::unit_factor(u.length, dimension::length);
+  const char* remedy = "it is a history of a tuning run: find the outlets anew with --overwrite";
+  const CsvColumns faces = read_csv(results / "faces.csv", remedy), balance = read_csv(results / "balance.csv", remedy),
+                   of_steps = read_csv(results / "steps.csv", remedy);
+  const auto times = faces.column(fmt::format("time [{}]", u.time));
+  const auto steps =
+      static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](double t) { return t * time < until; }));
+  const auto take = [&](const CsvColumns& table, const std::string& name, double factor) {
+    std::vector<double> values = table.column(name);
+    values.resize(steps);
+    for (double& v : values) v *= factor;
+    return values;
+  };
+  const auto of_face = [&](const std::string& face, const char* what, const std::string& unit, double factor) {
+    return take(faces, fmt::format("{} {} [{}]", face, what, unit), factor);
+  };
+  Measured run{.times = take(faces, fmt::format("time [{}]", u.time), time),
+               .durations = take(of_steps, fmt::format("dt [{}]", u.time), time),
+               .inlet_pressure = of_face(inlet, "pressure", u.pressure, pressure),
+               .lumen_volume = take(balance, fmt::format("lumen volume [{}^3]", u.length), length * length * length),
+               .outlet_flow = {},
+               .outlet_pressure = {}};
+  for (const auto& [face, share] : c.outlets->fractions) {
+    run.outlet_flow.push_back(of_face(face, "flow", u.flow, flow));
+    run.outlet_pressure.push_back(of_face(face, "pressure", u.pressure, pressure));
+  }
+  return run;
+}
+
+Vessel identify(const Measured& run, bool rigid) {
+  assert(run.times.size() > onset + 2);
+  Vessel vessel{rigid ? 0.0 : compliance(run), {}};
+  for (std::size_t i = 0; i < run.outlet_flow.size(); ++i) vessel.paths.push_back(path(run, i));
+  return vessel;
+}
+
+TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<double>& stored) {
+  TwinState start{run.times.front(), run.inlet_pressure.front(), {}, stored};
+  if (vessel.compliance > 0)
+    start.pressure = average(run, run.inlet_pressure, onset) +
+                     (run.lumen_volume.front() - average(run, run.lumen_volume, onset)) / vessel.compliance;
+  for (const auto& flow : run.outlet_flow) start.flows.push_back(flow.front());
+  return start;
+}
+
+double settled(const Measured& run) { return run.times[onset]; }
+
+Pressures pressures(const Measured& run) {
+  const auto first = run.inlet_pressure.begin() + static_cast<std::ptrdiff_t>(onset);
+  const auto [low, high] = std::minmax_element(first, run.inlet_pressure.end());
+  return {*high, *low, average(run, run.inlet_pressure)};
+}
+
+std::vector<double> mean_flows(const Measured& run) {
+  std::vector<double> means;
+  for (const auto& flow : run.outlet_flow) means.push_back(average(run, flow));
+  return means;
+}
+
+}  // namespace tunica::stages

@@ -1,0 +1,396 @@
+#include "tunica/stages/tuning/tune.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/error.hpp"
+#include "tunica/config/units.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/log.hpp"
+#include "tunica/stages/checkpoint.hpp"
+#include "tunica/stages/load_mesh.hpp"
+#include "tunica/stages/run.hpp"
+#include "tunica/stages/tuning/outlets_file.hpp"
+#include "tunica/stages/tuning/tuning_report.hpp"
+
+namespace tunica::stages {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double probed_share = 0.35;  ///< of a cycle: enough of the pulse to tell compliance and paths
+constexpr int default_steps = 200;     ///< in a cycle
+constexpr int fewest_steps = 20;
+
+/// Six digits: a machine that rounds otherwise comes to the same case, and finds its runs again.
+double rounded(double value) { return std::stod(fmt::format("{:.5e}", value)); }
+
+/// What a run in 3D is given.
+struct Plan {
+  Totals totals;
+  std::vector<double> stored;  ///< P_c at the start [Pa]
+};
+
+/// The one lumen face with a flow condition. Adds to `problems` what else stands in the way.
+std::string find_inlet(const Case& c, const mesh::MeshData& mesh, std::vector<Problem>& problems) {
+  std::vector<std::string> inlets;
+  const auto& shares = c.outlets->fractions;
+  for (const auto& [name, condition] : c.boundary) {
+    const auto face =
+        std::find_if(mesh.faces.begin(), mesh.faces.end(), [&, &n = name](const auto& f) { return f.name == n; });
+    if (face == mesh.faces.end() || mesh.regions[face->region].kind != mesh::RegionKind::lumen) continue;
+    if (std::holds_alternative<bc::Flow>(condition))
+      inlets.push_back(name);
+    else if (!std::holds_alternative<bc::NoSlip>(condition) &&
+             std::none_of(shares.begin(), shares.end(), [&, &n = name](const auto& f) { return f.first == n; }))
+      problems.push_back({"boundary." + name, fmt::format("has the condition {}", bc::name(condition)),
+                          "beside the face with the inflow every opening is an outlet: give it a share in "
+                          "outlets.fractions"});
+  }
+  if (inlets.size() == 1) return inlets[0];
+  problems.push_back({"boundary", fmt::format("{} faces of the lumen have a flow condition", inlets.size()),
+                      "the tuning needs one inlet with a periodic flow"});
+  return "";
+}
+
+/// One `tunica tune`. Its member functions are collective.
+class Tuning {
+ public:
+  Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen);
+  int steps();
+
+ private:
+  void read();
+  void find_inflow();
+  void prepare_folder();
+  void remove_earlier();
+
+  const TuningCase& settings() const { return *case_.settings.outlets; }
+  bool rigid() const { return std::holds_alternative<RigidFlow>(case_.settings.analysis); }
+  fs::path folder() const { return settings().output; }
+  std::string mmHg(double pressure) const {
+    return fmt::format("{:.4g}", pressure / config::unit_factor("mmHg", config::dimension::pressure));
+  }
+
+  Plan make_plan(const Vessel& vessel, double systolic, double diastolic);
+  /// Computes a case in 3D with the outlets of the plan, or takes what is there. False when a signal came.
+  bool compute(const std::string& name, const Plan& plan, int steps);
+  TunedOutlets tuned_outlets(const Plan& plan) const;
+  ReadCase run_input(const std::string& name, const Plan& plan, int steps) const;
+  /// How a run in 3D is to begin.
+  struct Start {
+    bool done = false, restart = false, overwrite = false;
+  };
+  /// For rank 0.
+  Start start_of_run(const fs::path& results, const ReadCase& input) const;
+  void look_at_probe();
+  void look_at_cycle(int number, const Plan& plan);
+  void tell(int number, const TuningCycle& cycle);
+  void write_result(const fs::path& file, const TuningCycle& cycle, const char* status);
+  int finish();
+  [[noreturn]] void give_up();
+
+  MPI_Comm comm_;
+  const TuneRequest& request_;
+  std::FILE* screen_;
+  double started_ = MPI_Wtime();
+  ReadCase case_;
+  std::string inlet_;
+  std::optional<bc::Waveform> inflow_;  ///< rank 0
+  double period_ = 0;                   ///< s
+  int steps_per_cycle_ = 0;
+  int signal_ = 0;
+  std::optional<parallel::Log> log_;
+  TuningReport report_;  ///< rank 0
+};
+
+Tuning::Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen)
+    : comm_(comm), request_(request), screen_(screen) {
+  read();
+  prepare_folder();
+  log_.emplace(comm_, parallel::Log::Targets{.file = folder() / "tune.log", .screen = screen});
+  if (rigid() || case_.settings.start) return;
+  log_->warning(
+      "the case names no `start`: the wall of the first cycle is not yet under its diastolic pressure, and what the "
+      "cycle tells is doubtful. Find the prestress first: `tunica prestress`");
+}
+
+void Tuning::read() {
+  parallel::on_root(comm_, [&] {
+    case_.text = config::read_text(request_.case_file);
+    auto parsed = read_case(request_.case_file);
+    case_.settings = std::move(parsed.value);
+    for (const auto& warning : parsed.warnings) case_.warnings.push_back(format(warning));
+    if (!case_.settings.outlets)
+      throw InputError(request_.case_file.string(), "has no section `outlets`",
+                       "add `outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {<outlet>: 1}}`");
+    case_.mesh = load_mesh(case_.settings);
+    find_inflow();
+  });
+  parallel::broadcast(comm_, case_.text);
+  if (parallel::rank(comm_) != 0) case_.settings = parse_case(case_.text, request_.case_file);
+  name_faces(case_.settings, case_.mesh, comm_);
+  if (request_.directory) case_.settings.outlets->output = *request_.directory;
+  parallel::broadcast(comm_, inlet_);
+  parallel::broadcast(comm_, period_);
+  const double step = settings().step.value_or(period_ / default_steps);
+  steps_per_cycle_ = static_cast<int>(std::ceil(period_ / step * (1 - 1e-9)));
+  if (steps_per_cycle_ < fewest_steps)
+    throw InputError("outlets.step", fmt::format("leaves {} steps for a period of {:.4g} s", steps_per_cycle_, period_),
+                     fmt::format("give at most a {}th of the period, or leave it out", fewest_steps));
+}
+
+// A ramp belongs to runs that start from rest; the tuning looks at the periodic state.
+void Tuning::find_inflow() {
+  std::vector<Problem> problems;
+  inlet_ = find_inlet(case_.settings, case_.mesh.data, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  for (auto& [face, condition] : case_.settings.boundary)
+    if (auto* flow = std::get_if<bc::Flow>(&condition)) {
+      flow->course.ramp_time = 0;
+      inflow_ = bc::inflow(*flow);
+    }
+  if (!inflow_->period())
+    problems.push_back({"boundary." + inlet_, "the flow is not periodic", "give it as a periodic `table`"});
+  else if (inflow_->mean() <= 0)
+    problems.push_back({"boundary." + inlet_,
+                        fmt::format("the mean flow of {:.4g} m^3/s leaves the vessel", -inflow_->mean()),
+                        "turn it round by `positive: outflow`"});
+  if (!problems.empty()) throw InputError(std::move(problems));
+  period_ = *inflow_->period();
+}
+
+void Tuning::prepare_folder() {
+  parallel::on_root(comm_, [&] {
+    report_.folder = folder();
+    report_.program = request_.program;
+    report_.case_hash = case_hash(case_);
+    const auto earlier = find_tuning(folder());
+    if (earlier && *earlier != report_.case_hash && !request_.overwrite)
+      throw InputError(folder().string(), "holds the tuning of another case, or of this one before it was changed",
+                       "replace it by --overwrite, or name another folder by --output");
+    if (!earlier && !request_.overwrite && fs::exists(settings().file()))
+      throw InputError(settings().file().string(), "is there already, and no tuning beside it that it came from",
+                       "replace it by --overwrite, or name another one by outlets.file");
+    std::error_code error;
+    fs::create_directories(folder(), error);
+    if (error)
+      throw InputError(folder().string(), fmt::format("cannot be made ({})", error.message()),
+                       "name a folder that can be created and written");
+    if (earlier && request_.overwrite) remove_earlier();
+    for (const fs::path& file : {settings().file(), folder() / "best.yaml"}) fs::remove(file);
+    write_report(report_, case_.settings);
+  });
+}
+
+void Tuning::remove_earlier() {
+  std::vector<fs::path> runs{folder() / "probe"};
+  for (int k = 1; fs::exists(folder() / fmt::format("cycle_{}", k)); ++k)
+    runs.push_back(folder() / fmt::format("cycle_{}", k));
+  for (const auto& run : runs)
+    if (const auto results = find_results(run)) remove_results(run, *results);
+  for (const char* file : {"tuning.csv", "tuning.svg", "pressure.svg"}) fs::remove(folder() / file);
+}
+
+Plan Tuning::make_plan(const Vessel& vessel, double systolic, double diastolic) {
+  Plan plan = parallel::on_root(comm_, [&] {
+    Totals totals = find_totals(settings(), vessel, *inflow_, period_, systolic, diastolic);
+    totals = {rounded(totals.resistance), rounded(totals.compliance)};
+    auto stored = Twin(vessel, share_out(settings(), totals), *inflow_, period_).periodic_cycle().end.stored;
+    std::transform(stored.begin(), stored.end(), stored.begin(), rounded);
+    return Plan{totals, stored};
+  });
+  parallel::broadcast(comm_, plan.totals);
+  parallel::broadcast(comm_, plan.stored);
+  return plan;
+}
+
+TunedOutlets Tuning::tuned_outlets(const Plan& plan) const {
+  TunedOutlets tuned;
+  const auto shared = share_out(settings(), plan.totals);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    tuned.emplace_back(settings().fractions[i].first, shared[i]);
+    tuned.back().second.initial_pressure = plan.stored[i];
+  }
+  return tuned;
+}
+
+ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps) const {
+  ReadCase run = case_;
+  Case& c = run.settings;
+  set_outlets(c, tuned_outlets(plan));
+  for (auto& [face, condition] : c.boundary)
+    if (auto* flow = std::get_if<bc::Flow>(&condition)) flow->course.ramp_time = 0;
+  c.title = fmt::format("Tuning of the outlets: {}", name);
+  c.time->step = period_ / steps_per_cycle_;
+  c.time->steps = steps;
+  c.time->cycles.reset();
+  c.time->adaptive.reset();
+  c.output.every = steps;
+  c.output.checkpoint_every = std::max(steps_per_cycle_ / 10, 1);
+  run.text += fmt::format("\n# {}: {} of {} steps, R_T = {:.5e} Pa s/m^3, C_T = {:.5e} m^3/Pa, P_c =", name, steps,
+                          steps_per_cycle_, plan.totals.resistance, plan.totals.compliance);
+  for (const double p : plan.stored) run.text += fmt::format(" {:.5e}", p);
+  run.text += " Pa\n";
+  return run;
+}
+
+Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& input) const {
+  const auto earlier = find_results(results);
+  if (!earlier) return {};
+  if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != mesh_hash(input.mesh.data)) {
+    if (!request_.overwrite)
+      throw InputError(results.string(), "holds a run with another mesh, inflow or prestress",
+                       "replace it by --overwrite, or name another folder by --output");
+    return {.done = false, .restart = false, .overwrite = true};
+  }
+  if (earlier->status == "completed") return {.done = true, .restart = false, .overwrite = false};
+  const bool restart = !list_checkpoints(results / "checkpoints").empty();
+  return {.done = false, .restart = restart, .overwrite = !restart};
+}
+
+bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
+  const ReadCase input = run_input(name, plan, steps);
+  RunRequest run;
+  run.case_file = request_.case_file;
+  run.directory = folder() / name;
+  run.program = request_.program;
+  run.resume = fmt::format("tunica tune {}{}", request_.case_file.string(),
+                           request_.directory ? " --output " + request_.directory->string() : "");
+  Start start = parallel::on_root(comm_, [&] { return start_of_run(folder() / name, input); });
+  parallel::broadcast(comm_, start);
+  log_->info(fmt::format("{}: R_T = {:.5g} Pa s/mm^3, C_T = {:.5g} mm^3/Pa, {} steps{}", name,
+                         1e-9 * plan.totals.resistance, 1e9 * plan.totals.compliance, steps,
+                         start.done ? ", computed before" : ""));
+  if (start.done) return true;
+  run.restart = start.restart;
+  run.overwrite = start.overwrite;
+  signal_ = run_case(input, run, comm_, screen_).signal;
+  return signal_ == 0;
+}
+
+void Tuning::look_at_probe() {
+  parallel::on_root(comm_, [&] {
+    const Measured run = read_measured(folder() / "probe", case_.settings, inlet_, period_);
+    report_.probe = identify(run, rigid());
+    write_report(report_, case_.settings);
+  });
+}
+
+void Tuning::look_at_cycle(int number, const Plan& plan) {
+  parallel::on_root(comm_, [&] {
+    TuningCycle cycle;
+    cycle.totals = plan.totals;
+    cycle.run = read_measured(folder() / fmt::format("cycle_{}", number), case_.settings, inlet_, period_);
+    cycle.vessel = identify(cycle.run, rigid());
+    const Twin twin(cycle.vessel, share_out(settings(), plan.totals), *inflow_, period_);
+    cycle.first = twin.first_cycle(start_of(cycle.run, cycle.vessel, plan.stored));
+    cycle.periodic = twin.periodic_cycle();
+    cycle.fractions = mean_flows(cycle.run);
+    double sum = 0;
+    for (const double flow : cycle.fractions) sum += flow;
+    for (double& share : cycle.fractions) share /= sum;
+    tell(number, cycle);
+    report_.cycles.push_back(std::move(cycle));
+    report_.seconds = MPI_Wtime() - started_;
+    write_report(report_, case_.settings);
+  });
+}
+
+void Tuning::tell(int number, const TuningCycle& cycle) {
+  const auto line = [&](const char* what, const Pressures& p) {
+    log_->info(fmt::format("  {:<24} {}/{} mmHg, mean {}", what, mmHg(p.systolic), mmHg(p.diastolic), mmHg(p.mean)));
+  };
+  log_->info(fmt::format("cycle {} of at most {}:", number, settings().max_cycles));
+  line("asked", {settings().systolic, settings().diastolic, settings().mean()});
+  line("measured in 3D", cycle.measured());
+  line("0D from the same start", cycle.foreseen_first());
+  line("0D, periodic", pressures(cycle.periodic));
+  line("foreseen when periodic", cycle.foreseen());
+  for (std::size_t i = 0; i < cycle.fractions.size(); ++i)
+    log_->info(fmt::format("  {}: {:.4g} of the outflow, asked {:.4g}", settings().fractions[i].first,
+                           cycle.fractions[i], settings().fractions[i].second));
+}
+
+// For rank 0.
+void Tuning::write_result(const fs::path& file, const TuningCycle& cycle, const char* status) {
+  report_.status = status;
+  report_.seconds = MPI_Wtime() - started_;
+  write_outlets(file, settings(), tuned_outlets({cycle.totals, cycle.periodic.end.stored}));
+  write_report(report_, case_.settings);
+}
+
+int Tuning::finish() {
+  parallel::on_root(comm_, [&] {
+    const TuningCycle& last = report_.cycles.back();
+    write_result(settings().file(), last, "converged");
+    const double mean = last.foreseen().mean, rule = settings().mean();
+    if (std::abs(mean / rule - 1) > settings().tolerance)
+      log_->warning(
+          fmt::format("the mean pressure is {} mmHg, (systolic + 2 diastolic)/3 is {}: with both given, it "
+                      "follows from the shape of the inflow; a smaller distal_share lowers it",
+                      mmHg(mean), mmHg(rule)));
+    log_->info(fmt::format("outlets found in {:.1f} s, within {:.2g} % of what was asked; for `tunica run`: {}",
+                           report_.seconds, 100 * last.miss(settings()), settings().file().string()));
+  });
+  return 0;
+}
+
+void Tuning::give_up() {
+  std::string message = parallel::on_root(comm_, [&] {
+    const auto& cycles = report_.cycles;
+    const auto best = std::min_element(cycles.begin(), cycles.end(), [&](const auto& a, const auto& b) {
+      return a.miss(settings()) < b.miss(settings());
+    });
+    write_result(folder() / "best.yaml", *best, "not converged");
+    const Pressures p = best->foreseen();
+    return fmt::format(
+        "the outlets miss the targets after {} cycle{}: at best {}/{} mmHg (mean {}), asked are {}/{} mmHg; off by "
+        "{:.3g} %, tolerance {:.3g} %\n  the best outlets are in {}; `tunica run` takes them from {}\n  try a larger "
+        "max_cycles or tolerance, and --overwrite",
+        cycles.size(), cycles.size() == 1 ? "" : "s", mmHg(p.systolic), mmHg(p.diastolic), mmHg(p.mean),
+        mmHg(settings().systolic), mmHg(settings().diastolic), 100 * best->miss(settings()), 100 * settings().tolerance,
+        (folder() / "best.yaml").string(), settings().file().string());
+  });
+  parallel::broadcast(comm_, message);
+  throw SolverError(message);
+}
+
+int Tuning::steps() {
+  const double systolic = settings().systolic, diastolic = settings().diastolic;
+  const Vessel none{0.0, std::vector<VesselPath>(settings().fractions.size())};
+  if (!compute("probe", make_plan(none, systolic, diastolic),
+               std::max(static_cast<int>(probed_share * steps_per_cycle_), 7)))
+    return signal_;
+  look_at_probe();
+  Plan plan = make_plan(report_.probe.value_or(none), systolic, diastolic);
+  for (int k = 1; k <= settings().max_cycles; ++k) {
+    if (!compute(fmt::format("cycle_{}", k), plan, steps_per_cycle_)) return signal_;
+    look_at_cycle(k, plan);
+    struct Next {
+      bool done;
+      double systolic, diastolic;
+    };
+    // (7.6): what 3D has more than the twin, the twin is asked for less.
+    Next next = parallel::on_root(comm_, [&] {
+      const TuningCycle& last = report_.cycles.back();
+      const Pressures m = last.measured(), f = last.foreseen_first();
+      return Next{last.miss(settings()) <= settings().tolerance, systolic - (m.systolic - f.systolic),
+                  diastolic - (m.diastolic - f.diastolic)};
+    });
+    parallel::broadcast(comm_, next);
+    if (next.done) return finish();
+    if (k < settings().max_cycles)
+      plan = make_plan(report_.cycles.empty() ? none : report_.cycles.back().vessel, next.systolic, next.diastolic);
+  }
+  give_up();
+}
+
+}  // namespace
+
+int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) { return Tuning(comm, request, screen).steps(); }
+
+}  // namespace tunica::stages

@@ -1,0 +1,34 @@
+// `tunica tune`: Windkessel outlets for given pressures and shares of the flow (docs/theory.md, section 7).
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "tunica/stages/manifest.hpp"
+
+namespace tunica::stages {
+
+struct TuneRequest {
+  std::filesystem::path case_file;
+  std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
+  bool overwrite = false;                          ///< results of another case in the folder may be replaced
+  ProgramVersion program;
+};
+
+/// Finds the outlets and writes into the folder of results:
+/// - probe/, cycle_1/, ...: the runs in 3D, as `tunica run` leaves them;
+/// - tuning.json: what was done and found; tuning.csv, tuning.svg: cycle by cycle; pressure.svg: the last cycle in 3D
+///   and in the 0D model; tune.log;
+/// - outlets.yaml: the outlets for `tunica run` (outlets_file.hpp), best.yaml in its place when the targets are missed.
+/// Runs that are there are not computed again, and one that was interrupted goes on. Returns the signal that stopped
+/// it, or 0.
+///
+/// Throws InputError with all problems of case and meshes before anything is written; SolverError when a step fails, no
+/// outlets do what is asked, or the cycles are used up, with everything until then on disk. The same on all ranks.
+/// Collective.
+int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen);
+
+}  // namespace tunica::stages

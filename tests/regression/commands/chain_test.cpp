@@ -1,0 +1,163 @@
+// `tunica run` on a case with several stages: what is done, what is reused, and that a chain which is killed anywhere
+// comes to the result of one that was not.
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "program.hpp"
+
+namespace tunica::test {
+namespace {
+
+class ChainCommand : public Program {
+ protected:
+  static constexpr const char* tube =
+      "meshes:\n"
+      "  tube: {radius: 5 mm, length: 20 mm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, cells_along: 4}\n"
+      "  interface: {lumen: lumen_wall, wall: wall_inner}\n";
+  static constexpr const char* rest =
+      "title: Tube\n"
+      "analysis: fsi\n"
+      "fluid: {}\n"
+      "fibres: {inlet: [wall_inlet, lumen_inlet], outer: wall_outer, mean_angle: 35 deg}\n"
+      "wall:\n"
+      "  density: 1100 kg/m^3\n"
+      "  material: {hgo: {shear_modulus: 40 kPa, poisson_ratio: 0.49, families: [{k1: 60 kPa, k2: 5, "
+      "mean_angle: 35 deg}]}}\n"
+      "boundary:\n"
+      "  lumen_inlet: {flow: 20 ml/s}\n"
+      "  lumen_outlet: {resistance: 5e8 Pa s/m^3}\n"
+      "  \"wall_*\": fixed\n"
+      "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
+      "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n"
+      "post: {}\nreport: {pictures: false}\n";
+
+  void write_case(const std::string& time, const std::string& output, const std::string& from = "",
+                  const std::string& to = "") const {
+    std::string text = std::string(tube) + rest + "time: {step: 1 ms, steps: " + time + ", rho_infinity: 0.2}\n" +
+                       "output: {" + output + "}\n";
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    write("case.yaml", text);
+  }
+  void expect_printed(const std::string& text) const {
+    EXPECT_NE(printed().find(text), std::string::npos) << text << "\nin\n" << printed();
+  }
+  /// The folder of results after a kill by SIGKILL as soon as the file is there.
+  void kill_when_there(const std::string& file) const {
+    const pid_t child = start("run case.yaml");
+    for (int k = 0; k < 6000 && !fs::exists(folder_ / file); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    kill(child, SIGKILL);
+    EXPECT_EQ(exit_code(child), -SIGKILL) << printed();
+  }
+  void expect_same(const std::string& one, const std::string& other, const std::vector<std::string>& files) const {
+    for (const auto& file : files) {
+      EXPECT_FALSE(read(one + file).empty()) << file;
+      EXPECT_TRUE(read(one + file) == read(other + file)) << file;
+    }
+  }
+};
+
+TEST_F(ChainCommand, ReusesWhatHasTheSameInputs) {
+  write_case("3", "directory: out, every: 1");
+  ASSERT_EQ(tunica("run case.yaml --dry-run"), 0) << printed();
+  expect_printed("1/5 fibres     would be done: never done");
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  ASSERT_EQ(tunica("run case.yaml --until prestress"), 0) << printed();
+  EXPECT_FALSE(fs::exists(folder_ / "out/run"));
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_printed("=== stage 2/5: prestress (prestress of the imaged wall): reused");
+  expect_printed("step 3/3");
+  const std::string page = read("out/report/report.html");
+  for (const char* text : {"<h1>Tube</h1>", "mean confidence", "TAWSS [Pa]", "iterations of the fixed point",
+                           "Tuned outlets: the case has no stage", "Pictures: not wanted"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  const auto time = fs::last_write_time(folder_ / "out/run/faces.csv");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_printed("run         reused");
+  EXPECT_EQ(fs::last_write_time(folder_ / "out/run/faces.csv"), time);
+
+  // Another spelling, other units of results and a title concern no stage, or only the run.
+  write_case("3", "directory: out, units: {pressure: kPa}", "radius: 5 mm", "radius: 0.5 cm");
+  ASSERT_EQ(tunica("run case.yaml --dry-run"), 0) << printed();
+  expect_printed("2/5 prestress  fresh");
+  expect_printed("3/5 run        would be done: inputs changed: output.units.pressure");
+  // The wall's law does: the steady flow is kept.
+  write_case("3", "directory: out", "k1: 60 kPa", "k1: 70 kPa");
+  ASSERT_EQ(tunica("run case.yaml --until prestress"), 0) << printed();
+  expect_printed("inputs changed: wall.material.hgo.families[1].k1; it goes on with what is there");
+  expect_printed("steady flow: 20 steps");
+  ASSERT_EQ(tunica("run case.yaml --from run"), 0) << printed();
+  expect_printed("=== stage 3/5: run (the case itself): asked to be done anew");
+  // A fibre angle comes before both.
+  write_case("3", "directory: out", "outer: wall_outer, mean_angle: 35", "outer: wall_outer, mean_angle: 30");
+  ASSERT_EQ(tunica("run case.yaml --dry-run"), 0) << printed();
+  expect_printed("1/5 fibres     would be done: inputs changed: mean_angle");
+  expect_printed("3/5 run        would be done: fibres comes before it");
+}
+
+TEST_F(ChainCommand, MoreStepsGoOn) {
+  write_case("4", "directory: out");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  write_case("8", "directory: out");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_printed("continuing from");
+  EXPECT_EQ(printed().find("step 4/8"), std::string::npos) << printed();
+  write_case("8", "directory: whole");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_same("out/run/", "whole/run/", {"faces.csv", "balance.csv", "checkpoints/step_00000008.checkpoint"});
+}
+
+TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
+  write_case("30", "directory: whole, checkpoint_every: 2");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  write_case("30", "directory: out, checkpoint_every: 2");
+  kill_when_there("out/prestress/flow.checkpoint");
+  EXPECT_FALSE(fs::exists(folder_ / "out/prestress/start.checkpoint"));
+  kill_when_there("out/run/checkpoints/step_00000004.checkpoint");
+  EXPECT_EQ(nlohmann::json::parse(read("out/run/stage.json"))["status"], "running");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_printed("=== stage 3/5: run (the case itself): it was interrupted");
+  expect_printed("continuing from");
+  expect_same("out/", "whole/",
+              {"fibres/wall/mesh-complete.mesh.vtu", "prestress/wall.vtu", "prestress/start.checkpoint",
+               "run/faces.csv", "run/balance.csv", "run/checkpoints/step_00000030.checkpoint"});
+}
+
+TEST_F(ChainCommand, WhatIsWrongIsToldBeforeAnyWork) {
+  write("case.yaml",
+        "analysis: fsi\n"
+        "mesh: {geometry: {parametric: {iliacs: {}}}, size: hug}\n"
+        "fibres: {mean_angle: 35}\n"
+        "fluid: {}\nboundary: {}\ntime: {step: 1 ms, steps: 2}\n");
+  EXPECT_EQ(tunica("run case.yaml"), 2);
+  for (const char* text : {"mesh.size", "fibres.mean_angle"}) expect_printed(text);
+  write("case.yaml",
+        "analysis: fsi\n"
+        "mesh: {geometry: {parametric: {iliacs: {}}}, size: coarse}\n"
+        "fibres: {mean_angle: 35 deg, regions: {flop: {mean_angle: 20 deg}}}\n"
+        "fluid: {}\n"
+        "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.45}}}\n"
+        "boundary: {lumen_inlet: {flow: 1 ml/s}, lumen_celiac: {resistance: 1e8 Pa s/m^3}, \"wall_*\": fixed, "
+        "\"lid_*\": fixed}\n"
+        "time: {step: 1 ms, steps: 2}\n");
+  for (const char* command : {"run case.yaml", "check case.yaml"}) {
+    EXPECT_EQ(tunica(command), 2);
+    for (const char* text :
+         {"boundary.lumen_celiac: the mesh has no such face",
+          "boundary.lumen_left_iliac: this lumen face has no condition", "boundary.lid_*: stands for no face",
+          "fibres.regions.flop: the mesh will have no such region"})
+      expect_printed(text);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "results"));
+  write_case("2", "directory: out");
+  EXPECT_EQ(tunica("run case.yaml --until pestress"), 2);
+  expect_printed("its stages: fibres, prestress, run, post, report");
+  EXPECT_EQ(tunica("prestress case.yaml"), 2);
+  expect_printed("fibres: is a stage to be done first");
+}
+
+}  // namespace
+}  // namespace tunica::test
