@@ -21,9 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* report_file = "post.json";
 
-/// The settings of a case without the section `post` are the defaults of the schema.
+/// Without the section `post` those of its schema; a case that computes cycles says how long one is.
 PostSettings settings_of(const Case& c) {
-  return c.post ? *c.post : config::parse_text(PostSettings::schema(), "{}").value;
+  PostSettings settings = c.post ? *c.post : config::parse_text(PostSettings::schema(), "{}").value;
+  if (!settings.period && !settings.from && c.time && c.time->cycles) settings.period = c.time->cycles->period;
+  return settings;
 }
 
 /// Frames as they are needed one after the other: the present one, and its neighbours for rates.

@@ -27,8 +27,10 @@ void check_settings(const PostSettings& s, Problems& problems) {
 
 Schema<PostSettings> PostSettings::schema() {
   return Schema<PostSettings>("post", "What `tunica post` makes of the results.")
-      .quantity("period", &PostSettings::period, dimension::time, config::above(0),
-                "Length of a cycle: the last one is looked at. Without it and without `from`, all results")
+      .quantity(
+          "period", &PostSettings::period, dimension::time, config::above(0),
+          "Length of a cycle: the last one is looked at. When left out that of `time.cycles`; without that and without "
+          "`from`, all results")
       .plausible("0.3 s", "2 s")
       .quantity("from", &PostSettings::from, dimension::time, config::at_least(0), "Start of the window")
       .quantity("until", &PostSettings::until, dimension::time, config::above(0),
