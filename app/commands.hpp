@@ -8,6 +8,7 @@
 namespace tunica::app {
 
 void add_check(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_image(CLI::App& app);
 void add_material(CLI::App& app);

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.\n"
       "More about a subcommand: tunica <subcommand> --help");
   tunica::app::add_check(app);
+  tunica::app::add_compare(app);
   tunica::app::add_fibres(app);
   tunica::app::add_image(app);
   tunica::app::add_material(app);

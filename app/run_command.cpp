@@ -40,7 +40,8 @@ int run_stages(const Options& o) {
   request.overwrite = o.request.overwrite;
   request.dry_run = o.dry_run;
   request.program = o.request.program;
-  return stages::chain::run_chain(request, MPI_COMM_WORLD, stdout);
+  const int signal = stages::chain::run_chain(request, MPI_COMM_WORLD, stdout);
+  return signal == 0 ? 0 : 128 + signal;
 }
 
 int run_alone(Options& o) {

@@ -179,6 +179,8 @@ void check_chain(const Case& c, Problems& problems) {
   if (c.mesh && !(c.solves_fluid() && c.solves_wall()))
     problems.add("mesh", "makes lumen and wall, but the analysis is of one of them",
                  "choose `analysis: fsi`, or make the mesh by `tunica mesh` and give what is wanted of it as `meshes`");
+  if (!c.compare.empty() && !c.solves_wall())
+    problems.add("compare", "is given, but the analysis has no wall", "remove it");
   if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
   if (!c.is_chain() || !c.prestress) return;
   const char* remedy = "remove it: that of the stage `prestress` is taken";
@@ -367,6 +369,9 @@ Schema<Case> Case::schema() {
       .section("post", &Case::post, PostSettings::schema(),
                "What `tunica post` makes of the results; with its defaults when left out")
       .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
+      .map("compare", &Case::compare, ComparedLaw::schema(),
+           "Wall laws that `tunica compare` puts side by side, by the names that they shall have")
+      .by_default()
       .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
       .by_default()
       .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")

@@ -18,6 +18,7 @@
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/stages/chain/settings.hpp"
 #include "tunica/stages/fibres/settings.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/post/settings.hpp"
@@ -117,6 +118,7 @@ struct Case {
   std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
   std::optional<PostSettings> post;            ///< what `tunica post` shall make of the results
   std::optional<ReportSettings> report;        ///< the page that is written last
+  std::vector<std::pair<std::string, ComparedLaw>> compare;  ///< laws that `tunica compare` puts in the wall
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;

@@ -72,6 +72,10 @@ struct Stage {
 /// All stages, in order.
 const std::vector<Stage>& stages();
 
+/// The case with the mesh, directions and outlets that its stages have made, and its other stages still to be done;
+/// paths count from `folder`.
+config::Document case_on_common_mesh(const Chain& chain, const std::filesystem::path& folder);
+
 /// Where a stage of the chain writes.
 std::filesystem::path folder_of(const Chain& chain, const Stage& stage);
 

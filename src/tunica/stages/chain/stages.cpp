@@ -99,7 +99,7 @@ Document fibres_document(const Chain& chain, const fs::path& folder) {
 /// A case on the mesh that was made, without the sections of stages.
 Document computed_case(const Chain& chain, const fs::path& folder) {
   Document document = case_for(chain, folder);
-  for (const char* section : {"mesh", "fibres", "prestress", "post", "report"}) document.remove(section);
+  for (const char* section : {"mesh", "fibres", "prestress", "post", "report", "compare"}) document.remove(section);
   document.set("meshes", meshes_for(chain, folder, true));
   return document;
 }
@@ -145,7 +145,10 @@ Document run_document(const Chain& chain, const fs::path& folder) {
 
 Document post_document(const Chain& chain, const fs::path& folder) {
   Document document = run_document(chain, folder);
-  document.set("post", case_for(chain, folder).part("post"));
+  Document figures = case_for(chain, folder).part("post");
+  const bool has_window = figures.has("period") || figures.has("from") || figures.has("until");
+  if (!has_window && document.has("time.cycles.period")) figures.set("period", document.text("time.cycles.period"));
+  document.set("post", figures);
   document.set("post.output", ".");
   document.set("output.directory", path_to(folder_of(chain, stage("run")), folder));
   return document;
@@ -268,12 +271,21 @@ bool same_flow(const Change& change) {
 }
 
 bool more_steps(const Change& change) {
-  const std::string key = "time.steps";
-  return change.files.empty() && change.settings == std::vector{key} && change.then.contains(key) &&
-         change.now.contains(key) && std::stoll(change.now.at(key)) > std::stoll(change.then.at(key));
+  if (change.settings.size() != 1 || !change.files.empty()) return false;
+  const std::string& key = change.settings[0];
+  return (key == "time.steps" || key == "time.cycles.most") && change.then.contains(key) && change.now.contains(key) &&
+         std::stoll(change.now.at(key)) > std::stoll(change.then.at(key));
 }
 
 }  // namespace
+
+Document case_on_common_mesh(const Chain& chain, const fs::path& folder) {
+  Document document = case_for(chain, folder);
+  for (const char* key : {"mesh", "fibres", "compare", "prestress.output", "post.output"}) document.remove(key);
+  document.set("meshes", meshes_for(chain, folder, true));
+  set_outlets_file(chain, folder, document);
+  return document;
+}
 
 fs::path folder_of(const Chain& chain, const Stage& stage) {
   const std::string given = chain.document.text(stage.output);
