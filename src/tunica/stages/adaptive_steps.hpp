@@ -8,7 +8,7 @@
 namespace tunica::stages {
 
 struct StepError {
-  double relative = 0;   ///< of the velocity, (4.8)
+  double relative = 0;   ///< of the velocity, (4.9)
   double reference = 0;  ///< largest norm of the nodal velocities so far, what the error is relative to [m/s]
 };
 
@@ -18,7 +18,7 @@ StepError step_error(const mesh::DistributedMesh& mesh, const coupling::State& b
 /// Halvings of the largest step that lead to the smallest one allowed.
 int finest_level(const coupling::TimeSettings& time);
 
-/// Level of StepGrid that the next step shall have after a step of `level` with this error, (4.9). It is finer than
+/// Level of StepGrid that the next step shall have after a step of `level` with this error, (4.10). It is finer than
 /// `level` when the step was too large, and coarser by one at most.
 int wanted_level(const coupling::TimeSettings& time, int level, const StepError& error);
 
