@@ -8,7 +8,7 @@
 namespace tunica::stages {
 
 struct StepError {
-  double relative = 0;   ///< of the velocity, (4.8)
+  double relative = 0;   ///< of the velocity, (4.9)
   double reference = 0;  ///< largest norm of the nodal velocities so far, what the error is relative to [m/s]
 };
 
