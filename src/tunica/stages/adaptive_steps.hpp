@@ -18,7 +18,7 @@ StepError step_error(const mesh::DistributedMesh& mesh, const coupling::State& b
 /// Halvings of the largest step that lead to the smallest one allowed.
 int finest_level(const coupling::TimeSettings& time);
 
-/// Level of StepGrid that the next step shall have after a step of `level` with this error, (4.9). It is finer than
+/// Level of StepGrid that the next step shall have after a step of `level` with this error, (4.10). It is finer than
 /// `level` when the step was too large, and coarser by one at most.
 int wanted_level(const coupling::TimeSettings& time, int level, const StepError& error);
 
