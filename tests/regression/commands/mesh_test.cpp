@@ -59,7 +59,7 @@ TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
   EXPECT_EQ(printed().find("warning"), std::string::npos) << printed();
   ASSERT_EQ(tunica("run case.yaml --until fibres"), 0) << printed();
   EXPECT_NE(printed().find("genus 1, manifold"), std::string::npos) << printed();
-  EXPECT_NE(printed().find("inlet: wall_inlet"), std::string::npos) << printed();
+  EXPECT_NE(printed().find("inlet: lumen_inlet, wall_inlet"), std::string::npos) << printed();
   EXPECT_EQ(tunica("mesh out/mesh/mesh.yaml"), 2) << "a mesh is there";
 
   // The case file of the mesh stage says the same as that of `tunica mesh`, and its result serves any case.
