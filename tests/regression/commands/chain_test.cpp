@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "program.hpp"
@@ -124,6 +125,32 @@ TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
   expect_same("out/", "whole/",
               {"fibres/wall/mesh-complete.mesh.vtu", "prestress/wall.vtu", "prestress/start.checkpoint",
                "run/faces.csv", "run/balance.csv", "run/checkpoints/step_00000030.checkpoint"});
+}
+
+TEST_F(ChainCommand, WallLawsSideBySide) {
+  write_case("4", "directory: out, every: 1");
+  EXPECT_EQ(tunica("compare case.yaml"), 2);
+  expect_printed("names fewer than two laws");
+  write("case.yaml", read("case.yaml") +
+                         "compare:\n  soft: {material: {neo_hooke: {young_modulus: 0.4 MPa, poisson_ratio: 0.49}}}\n"
+                         "  stiff: {material: {neo_hooke: {young_modulus: 0.8 MPa, poisson_ratio: 0.49}}}\n");
+  ASSERT_EQ(tunica("compare case.yaml"), 0) << printed();
+  EXPECT_FALSE(fs::exists(folder_ / "out/run")) << "the law of the case itself is not asked for";
+  // Under the same load the mean stress does not depend on the stiffness of one material, but for what is not yet
+  // steady.
+  std::istringstream table(read("out/compare/compare.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "what,unit,soft,stiff");
+  std::getline(table, line);
+  double soft = 0, stiff = 0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "wall first_principal_stress mean at peak pressure,kPa,%lf,%lf", &soft, &stiff),
+            2)
+      << line;
+  EXPECT_NEAR(soft, stiff, 0.05 * stiff);
+  EXPECT_NE(read("out/compare/compare.html").find("2: stiff"), std::string::npos);
+  ASSERT_EQ(tunica("compare case.yaml"), 0) << printed();
+  EXPECT_EQ(printed().find(": never done"), std::string::npos) << printed();
 }
 
 TEST_F(ChainCommand, WhatIsWrongIsToldBeforeAnyWork) {

@@ -94,7 +94,8 @@ std::string plot_of(const std::vector<Line>& lines, const std::string& title, co
   std::string unit;
   for (const auto& line : lines) {
     if (line.what.find(part) == std::string::npos) continue;
-    Series s{.name = line.what.substr(0, line.what.find(' ')), .x = {}, .y = line.values, .markers = true};
+    Series s{
+        .name = line.what.substr(0, line.what.find(' ')), .x = {}, .y = line.values, .line = false, .markers = true};
     for (std::size_t k = 0; k < line.values.size(); ++k) s.x.push_back(static_cast<double>(k + 1));
     series.push_back(std::move(s));
     unit = line.unit;
