@@ -99,8 +99,6 @@ class Album {
   /// A picture that cannot be drawn, as one of an array that the results do not hold, is named with the reason.
   void add(PictureOptions options, const std::string& caption) {
     options.output = file_;
-    options.width = 900;
-    options.height = 800;
     say_("picture: " + caption);
     try {
       render(options);
