@@ -11,7 +11,8 @@ constexpr const char* style =
     "figure{display:inline-block;margin:0 1em 1em 0;vertical-align:top}figcaption{color:#555;max-width:34em}"
     "table{border-collapse:collapse;margin-bottom:1em}td,th{padding:.2em .8em;border-bottom:1px solid #ddd;"
     "text-align:right}td:first-child,th:first-child{text-align:left}.legend i{display:inline-block;width:1em;"
-    "height:1em;margin-right:.4em;vertical-align:-.15em}.legend span{margin-right:1.2em}figure img{max-width:545px}td{white-space:nowrap}"
+    "height:1em;margin-right:.4em;vertical-align:-.15em}.legend span{margin-right:1.2em}figure img{max-width:545px}"
+    "td{white-space:nowrap}"
     "h2{border-bottom:2px solid #ddd;margin-top:1.6em}.missing{color:#666;background:#f5f5f5;padding:.4em .8em}"
     "pre{background:#f5f5f5;padding:.8em;overflow-x:auto;font-size:13px}nav a{margin-right:1em}";
 constexpr const char *heading_end = "</h1>\n", *page_end = "</body></html>\n";

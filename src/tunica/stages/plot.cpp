@@ -36,9 +36,11 @@ struct Axis {
     return begin + t * (end - begin);
   }
   /// Gives a single value some room on both sides.
+  /// Values that differ by rounding alone are one value: steps between them would be lost in it.
   void open_up() {
-    if (high > low) return;
-    const double room = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
+    const double size = std::max(std::abs(low), std::abs(high));
+    if (high - low > 1e-9 * size) return;
+    const double room = size == 0.0 ? 1.0 : 0.1 * size;
     low -= room;
     high += room;
   }

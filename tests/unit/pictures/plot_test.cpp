@@ -44,6 +44,12 @@ TEST(AxisTicks, AreAtLeastThreeOnShortLogarithmicAxes) {
   for (const double ratio : {1.05, 1.5, 4.0, 12.0, 90.0}) EXPECT_GE(axis_ticks(0.4, 0.4 * ratio, true).size(), 3U);
 }
 
+TEST(Plot, ValuesThatDifferByRoundingShareARoundAxis) {
+  const std::string svg = draw_plot({{.name = "p", .x = {0.0, 1.0}, .y = {5.0, 5.0 + 2e-15}}}, {});
+  EXPECT_LT(svg.size(), 10000U);
+  EXPECT_NE(svg.find(">5<"), std::string::npos) << svg;
+}
+
 TEST(Plot, PutsPointsWhereTheAxesSay) {
   PlotOptions options;
   options.width = 200 + 98;   // 200 pixels between the side margins of 78 and 20
