@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 
 namespace tunica::stages {
 
@@ -27,5 +28,8 @@ class Hash {
  private:
   std::uint64_t value_ = 14695981039346656037ULL;
 };
+
+/// A fingerprint as files hold it: 16 hexadecimal digits.
+std::string hex(std::uint64_t hash);
 
 }  // namespace tunica::stages

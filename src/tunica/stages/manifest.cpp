@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +14,9 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/stages/checkpoint.hpp"
+#include "tunica/stages/hash.hpp"
 #include "tunica/stages/histories.hpp"
+#include "tunica/stages/time_stamp.hpp"
 
 namespace tunica::stages {
 
@@ -26,16 +27,6 @@ namespace {
 
 constexpr const char* file_name = "manifest.json";
 
-std::string now() {
-  const std::time_t t = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&t, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 std::uint64_t from_hex(const std::string& text) { return std::stoull(text, nullptr, 16); }
 
 std::string mpi_version() {
@@ -72,7 +63,7 @@ ordered_json read_manifest(const fs::path& file) {
 }  // namespace
 
 Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool continued)
-    : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(now()) {
+    : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(time_stamp()) {
   if (continued && fs::exists(file_)) earlier_runs_ = read_manifest(file_).value("runs", ordered_json::array()).dump();
 }
 
@@ -81,7 +72,7 @@ void Manifest::write(const ManifestProgress& p) {
   for (const auto& [name, elements] : head_.regions) regions.push_back({{"name", name}, {"elements", elements}});
   const bool running = p.status == "running";
   runs.push_back({{"started", started_},
-                  {"ended", running ? "" : now()},
+                  {"ended", running ? "" : time_stamp()},
                   {"status", p.status},
                   {"message", p.message},
                   {"ranks", head_.ranks},

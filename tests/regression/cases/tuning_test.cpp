@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "small_cases.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/tuning/tune.hpp"
@@ -57,17 +58,6 @@ void tune(const fs::path& file, bool overwrite = false) {
   request.program = {"test", "none"};
   EXPECT_EQ(stages::tune(MPI_COMM_WORLD, request, nullptr), 0);
   MPI_Barrier(MPI_COMM_WORLD);
-}
-
-template <class Error, class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
 }
 
 /// Largest and smallest pressure at the inlet in the last period.

@@ -29,6 +29,18 @@ ElementState<T> convert(const ElementState<double>& s) {
   return r;
 }
 
+/// Stabilisation parameters that do not depend on the state.
+template <class T>
+Tau<T> frozen(const Tau<double>& tau) {
+  Tau<T> r;
+  for (int q = 0; q < 4; ++q) {
+    r.m[q] = T(tau.m[q]);
+    r.c[q] = T(tau.c[q]);
+    r.b[q] = T(tau.b[q]);
+  }
+  return r;
+}
+
 /// An element of 1 mm size with blood-like random nodal values.
 class RandomElement {
  public:

@@ -48,10 +48,9 @@ TYPED_TEST(ShapeOfLaw, CompletesTheDerivativeOfTheResidualAtFrozenTau) {
     const double moves[4] = {1.0, seed % 2 ? 1.0 : 0.0, 0.0, seed % 3 ? 1.0 : 0.0};
     const TypeParam law{};
     const Tau<double> tau = stabilisation(evaluate(state, law), time.dt, parameters);
-    Tau<D> frozen;
-    for (int q = 0; q < 4; ++q) frozen.m[q] = D(tau.m[q]), frozen.c[q] = D(tau.c[q]), frozen.b[q] = D(tau.b[q]);
     fe::ElementVector<D> expected;
-    residual_with(evaluate(with_derivatives(state, time, moves), law), frozen, parameters.density, expected);
+    residual_with(evaluate(with_derivatives(state, time, moves), law), test::frozen<D>(tau), parameters.density,
+                  expected);
     fe::ElementVector<double> r;
     fe::ElementMatrix<double> k;
     tangent_beside_wall(state, time, parameters, law, motion, moves, r, k);

@@ -25,16 +25,6 @@ ElementState<D> with_derivatives(const ElementState<double>& state, const TimeCo
   return s;
 }
 
-Tau<D> frozen(const Tau<double>& tau) {
-  Tau<D> r;
-  for (int q = 0; q < 4; ++q) {
-    r.m[q] = D(tau.m[q]);
-    r.c[q] = D(tau.c[q]);
-    r.b[q] = D(tau.b[q]);
-  }
-  return r;
-}
-
 /// Largest difference between the tangent and the derivative of the residual, relative within each kind of block
 /// (velocity-velocity, velocity-pressure, pressure-velocity, pressure-pressure).
 template <class Law>
@@ -42,7 +32,7 @@ double tangent_error(const ElementState<double>& state, const TimeCoefficients& 
                      const Law& law) {
   const Tau<double> tau = stabilisation(evaluate(state, law), time.dt, parameters);
   fe::ElementVector<D> expected;
-  residual_with(evaluate(with_derivatives(state, time), law), frozen(tau), parameters.density, expected);
+  residual_with(evaluate(with_derivatives(state, time), law), test::frozen<D>(tau), parameters.density, expected);
   fe::ElementVector<double> r;
   fe::ElementMatrix<double> k;
   tangent(state, time, parameters, law, r, k);

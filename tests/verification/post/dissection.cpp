@@ -2,14 +2,9 @@
 // what `tunica post` finds in them.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "shared_folder.hpp"
+#include "run_and_post.hpp"
 #include "tunica/stages/csv_file.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
-#include "tunica/stages/post/post.hpp"
-#include "tunica/stages/run.hpp"
 #include "verification/fluid/flow_case.hpp"
 
 namespace tunica::verification {
@@ -49,16 +44,8 @@ std::string case_text() {
 TEST(PostDissection, LumensTearsAndMass) {
   const test::SharedFolder folder;
   make_mesh(folder);
-  const auto file = folder.write("case.yaml", case_text());
-  stages::RunRequest run;
-  run.case_file = file;
-  stages::run(MPI_COMM_WORLD, run, nullptr);
-  stages::post::PostRequest request;
-  request.case_file = file;
-  stages::post::post_results(MPI_COMM_WORLD, request, nullptr);
+  const auto report = run_and_post(folder, case_text());
   const fs::path post = folder.path() / "results/post";
-  std::ifstream stream(post / "post.json");
-  const auto report = nlohmann::json::parse(stream);
 
   EXPECT_TRUE(report["left_out"].empty()) << report["left_out"].dump();
   ASSERT_EQ(report["tears"].size(), 2u);

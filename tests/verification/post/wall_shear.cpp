@@ -4,12 +4,8 @@
 #include <fmt/format.h>
 
 #include <complex>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "shared_folder.hpp"
-#include "tunica/stages/post/post.hpp"
-#include "tunica/stages/run.hpp"
+#include "run_and_post.hpp"
 #include "verification/fluid/flow_case.hpp"
 
 namespace tunica::verification {
@@ -17,18 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double mu = 0.004, density = 1060;
-
-nlohmann::json run_and_post(const test::SharedFolder& folder, const std::string& text) {
-  const auto file = folder.write("case.yaml", text);
-  stages::RunRequest run;
-  run.case_file = file;
-  stages::run(MPI_COMM_WORLD, run, nullptr);
-  stages::post::PostRequest post;
-  post.case_file = file;
-  stages::post::post_results(MPI_COMM_WORLD, post, nullptr);
-  std::ifstream report(folder.path() / "results/post/post.json");
-  return nlohmann::json::parse(report);
-}
 
 std::string tube(double radius, double length, int k, int along) {
   return fmt::format(

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/series_file.hpp"
 #include "tunica/stages/hash.hpp"
+#include "tunica/stages/time_stamp.hpp"
 
 namespace tunica::stages::chain {
 
@@ -36,17 +36,6 @@ void add_file(Hash& hash, const fs::path& file) {
   }
 }
 
-std::string hex(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
-
-std::string now() {
-  const std::time_t t = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&t, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
 std::vector<std::string> changed(const Map& then, const Map& now) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : then)
@@ -65,7 +54,7 @@ std::string Inputs::fingerprint() const {
       add(hash, key);
       add(hash, value);
     }
-  return hex(hash);
+  return hex(hash.value());
 }
 
 std::optional<Record> read_record(const fs::path& folder) {
@@ -96,7 +85,7 @@ void write_record(const fs::path& folder, const Record& r) {
   json["status"] = r.status;
   json["message"] = r.message;
   json["seconds"] = r.seconds;
-  json["time"] = now();
+  json["time"] = time_stamp();
   json["ranks"] = r.ranks;
   json["program"] = {{"version", r.version}, {"commit", r.commit}};
   json["fingerprint"] = r.inputs.fingerprint();
@@ -122,7 +111,7 @@ std::string Fingerprints::of(const fs::path& path) {
   } else {
     add_file(hash, full);
   }
-  return known_[full] = hex(hash);
+  return known_[full] = hex(hash.value());
 }
 
 Change difference(const Inputs& then, const Inputs& now) {
