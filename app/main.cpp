@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   tunica::app::add_run(app);
   tunica::app::add_schema(app);
   tunica::app::add_tune(app);
+  tunica::app::add_vary(app);
   tunica::app::add_verify(app);
   try {
     app.parse(argc, argv);

@@ -63,6 +63,10 @@ void add_picture(CLI::App& app) {
   command->add_option("--scale", o.scale, "Factor on the values, for another unit");
   command->add_option("--label", o.label, "Of the colour bar; default: the name of the array");
   command->add_option("--range", a->limits, "Lowest and highest value of the colour bar; default: those in sight");
+  command
+      ->add_option("--percentile", a->options.percentile,
+                   "The colour bar ends where so many per cent of the values in sight lie below; default: 100")
+      ->check(CLI::Range(1.0, 100.0));
   command->add_option("--title", o.title, "Text above the picture");
   command->add_option("--clip", a->clip, "Cut away one side of a plane: point x y z, direction of that side x y z");
   command->add_option("--warp", o.warp, "Vector array by which points are moved");

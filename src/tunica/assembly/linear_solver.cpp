@@ -122,13 +122,13 @@ void LinearSolver::precondition(const double* r, double* z) {
 }
 
 LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<RankOne>& outlets,
-                                 std::span<const double> rhs, std::span<double> x) {
+                                 std::span<const double> rhs, std::span<double> x, double absolute) {
   matrix_ = &matrix;
   outlets_ = &outlets;
   const auto& d = preconditioner_.scale();
   std::vector<double> b(work_.size());
   for (std::size_t i = 0; i < b.size(); ++i) b[i] = rhs[i] / d[i];
-  const LinearResult result = krylov_.solve(b, x.first(b.size()));
+  const LinearResult result = krylov_.solve(b, x.first(b.size()), absolute);
   for (std::size_t i = 0; i < b.size(); ++i) x[i] /= d[i];
   mesh_.halo.update(x, 4);
   return result;

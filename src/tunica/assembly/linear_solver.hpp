@@ -26,9 +26,10 @@ class LinearSolver {
   /// New preconditioner for `matrix`. Collective.
   void update_preconditioner(const BlockMatrix& matrix, const std::vector<RankOne>& outlets);
 
-  /// `rhs`: [owned node][4]; `x`: [local node][4], filled including ghosts. Collective.
+  /// `rhs`: [owned node][4]; `x`: [local node][4], filled including ghosts. `absolute`: residual norm() that is small
+  /// enough whatever the relative tolerance. Collective.
   LinearResult solve(const BlockMatrix& matrix, const std::vector<RankOne>& outlets, std::span<const double> rhs,
-                     std::span<double> x);
+                     std::span<double> x, double absolute);
 
   /// Norm of a residual in the units of the solver, [owned node][4]. Collective.
   double norm(std::span<const double> residual) const;

@@ -124,7 +124,7 @@ class Problem {
     double converged, noise;
   };
   Targets start(State& next, const Instant& instant, double& norm);
-  bool solve_increment(NewtonRecord& record, std::string& failure);
+  bool solve_increment(NewtonRecord& record, double absolute, std::string& failure);
   /// Goes along the increment as far as the residual allows; returns its norm there, none when every length fails.
   std::optional<double> line_search(const State& old_state, State& next, const Instant& instant, double norm,
                                     double target, NewtonRecord& record, std::string& failure);

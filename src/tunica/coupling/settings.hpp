@@ -43,15 +43,22 @@ struct NewtonSettings {
 };
 
 struct LinearSettings {
-  double tolerance = 1e-4;  ///< of the residual norm, relative to the right-hand side
+  double tolerance = 1e-4;        ///< of the residual norm, relative to the right-hand side; never solved to less
+  double first_tolerance = 3e-3;  ///< the same in the first Newton iteration of a step
   int max_iterations = 500;
   int restart = 200;
 
   static config::Schema<LinearSettings> schema() {
     using namespace config;
-    return Schema<LinearSettings>("linear", "GMRES within a Newton iteration.")
+    return Schema<LinearSettings>("linear",
+                                  "GMRES within a Newton iteration. It stops where Newton's method would be done, at "
+                                  "0.3 of the residual that ends the step, if that comes before its own tolerance.")
         .number("tolerance", &LinearSettings::tolerance, range(1e-14, 0.5),
                 "Residual norm relative to the right-hand side")
+        .by_default()
+        .number("first_tolerance", &LinearSettings::first_tolerance, range(1e-14, 0.5),
+                "The same in the first Newton iteration of a step, which the curvature of the equations spoils anyway; "
+                "`tolerance` when that is larger")
         .by_default()
         .integer("max_iterations", &LinearSettings::max_iterations, range(1, 100000),
                  "Iterations after which the step is rejected")

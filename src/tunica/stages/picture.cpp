@@ -233,13 +233,18 @@ std::vector<Layer> make_layers(const std::vector<std::string>& files, const Pict
 
 std::array<double, 2> colour_limits(const std::vector<Layer>& layers, const PictureOptions& options) {
   if (options.limits) return *options.limits;
-  std::array<double, 2> limits = {std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+  std::vector<double> values;
   for (const auto& layer : layers) {
     if (!layer.coloured) continue;
-    double range[2];
-    layer.surface->GetScalarRange(range);
-    limits = {std::min(limits[0], range[0]), std::max(limits[1], range[1])};
+    auto* scalars = layer.surface->GetPointData()->GetScalars();
+    if (!scalars) scalars = layer.surface->GetCellData()->GetScalars();
+    for (vtkIdType i = 0; i < scalars->GetNumberOfTuples(); ++i)
+      if (const double value = scalars->GetComponent(i, 0); std::isfinite(value)) values.push_back(value);
   }
+  if (values.empty()) return {0.0, 1.0};
+  const auto below = static_cast<std::ptrdiff_t>(options.percentile / 100 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + below, values.end());
+  std::array<double, 2> limits = {*std::min_element(values.begin(), values.begin() + below + 1), values[below]};
   // Round-off about zero would only clutter the labels.
   for (double& limit : limits)
     if (std::abs(limit) < 1e-9 * (limits[1] - limits[0])) limit = 0.0;

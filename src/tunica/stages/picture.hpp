@@ -31,6 +31,7 @@ struct PictureOptions {
   double scale = 1.0;            ///< factor on the values, for another unit
   std::string label;             ///< of the colour bar; default: name of the array with its unit
   std::optional<std::array<double, 2>> limits;  ///< of the colour bar, after scaling; default: the values in sight
+  double percentile = 100;  ///< without limits: the colour bar ends where so many per cent of the values lie below
 
   std::string title;              ///< default: none. The time is added for a series
   std::optional<ClipPlane> clip;  ///< default: nothing is cut

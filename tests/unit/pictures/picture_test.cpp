@@ -119,6 +119,14 @@ TEST_F(Picture, ColoursTheSurfaceByTheArray) {
   EXPECT_GT(right[0], right[2] + 60) << "yellow at the highest value";
 }
 
+TEST_F(Picture, LeavesOutTheLargestValuesWhenAsked) {
+  auto options = front(write_cube("cube.vtu"));  // half of the values are 0, half are 2
+  options.percentile = 60;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 2.0}));
+  options.percentile = 40;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 0.0}));
+}
+
 TEST_F(Picture, ScalesAndTakesComponentsOrMagnitude) {
   auto options = front(write_cube("cube.vtu", 1.0));
   options.scale = 10.0;

@@ -42,6 +42,12 @@ std::optional<ClipPlane> plane_of(const std::vector<Vec3<double>>& places) {
   return ClipPlane{middle, normal};
 }
 
+/// The few extreme values at edges would make one colour of all the others.
+constexpr double shown = 99;
+
+/// Pixels of pictures of a whole vessel, which stands upright.
+constexpr int whole[] = {900, 1100};
+
 /// What is drawn of a case, in the unit of its files.
 struct Scene {
   std::vector<std::string> lumen, wall;  ///< series of fields
@@ -122,7 +128,9 @@ void draw_fields(const Scene& scene, Album& album) {
     options.inputs = inputs;
     options.array = array;
     options.time = scene.peak;
+    options.percentile = shown;
     if (scene.plane) options.view = scene.plane->normal;
+    options.width = whole[0], options.height = whole[1];
     return options;
   };
   const std::string when = scene.peak ? "at peak pressure" : "at the end";
@@ -154,6 +162,7 @@ void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
       options.inputs = *inputs;
       options.array = array;
       options.time = scene.peak;
+      options.percentile = shown;
       options.clip = plane;
       options.view = plane.normal;
       options.up = std::abs(unit(plane.normal)[2]) > 0.8 ? Vec3<double>{{0, 1, 0}} : Vec3<double>{{0, 0, 1}};
@@ -180,6 +189,8 @@ std::string pictures_part(const Results& r, const Say& say) {
       PictureOptions options;
       options.inputs = {scene.shear};
       options.array = array;
+      options.percentile = shown;
+      options.width = whole[0], options.height = whole[1];
       if (scene.plane) options.view = scene.plane->normal;
       album.add(options, fmt::format("{} on the wall of the lumen", array));
     }
