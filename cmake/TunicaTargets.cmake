@@ -11,7 +11,7 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 
 find_program(TUNICA_CCACHE ccache)
 if(TUNICA_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${TUNICA_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${TUNICA_CCACHE})
 endif()
 
 add_library(tunica_flags INTERFACE)

@@ -316,7 +316,7 @@ constexpr double usable_linear_residual = 0.05;
 
 // Share of the residual that ends the step which the linear solver may leave: Newton's own error has the rest. Less
 // would be solved for in vain (Dembo, Eisenstat & Steihaug 1982).
-constexpr double linear_share = 0.3;
+constexpr double linear_share = 0.03;
 
 bool Problem::solve_increment(NewtonRecord& record, double absolute, std::string& failure) {
   const Stopwatch watch(timings_.linear);
@@ -379,8 +379,9 @@ void Problem::iterate(const State& old_state, State& next, const Instant& instan
     }
     NewtonRecord& record = report.iterations.emplace_back();
     record.norm = norm;
+    const bool inexact = input_.linear.first_tolerance > input_.linear.tolerance;
     const double enough = k == 0 ? input_.linear.first_tolerance * norm : linear_share * target.converged;
-    if (!solve_increment(record, enough, report.failure)) return;
+    if (!solve_increment(record, inexact ? enough : 0.0, report.failure)) return;
     const auto new_norm = line_search(old_state, next, instant, norm, target.converged, record, report.failure);
     if (!new_norm) return;
     norm = *new_norm;

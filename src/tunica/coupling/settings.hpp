@@ -52,13 +52,13 @@ struct LinearSettings {
     using namespace config;
     return Schema<LinearSettings>("linear",
                                   "GMRES within a Newton iteration. It stops where Newton's method would be done, at "
-                                  "0.3 of the residual that ends the step, if that comes before its own tolerance.")
+                                  "0.03 of the residual that ends the step, if that comes before its own tolerance.")
         .number("tolerance", &LinearSettings::tolerance, range(1e-14, 0.5),
                 "Residual norm relative to the right-hand side")
         .by_default()
         .number("first_tolerance", &LinearSettings::first_tolerance, range(1e-14, 0.5),
-                "The same in the first Newton iteration of a step, which the curvature of the equations spoils anyway; "
-                "`tolerance` when that is larger")
+                "The same in the first Newton iteration of a step, which the curvature of the equations spoils anyway. "
+                "No larger than `tolerance`: every system is solved to `tolerance`")
         .by_default()
         .integer("max_iterations", &LinearSettings::max_iterations, range(1, 100000),
                  "Iterations after which the step is rejected")

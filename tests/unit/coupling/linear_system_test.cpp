@@ -116,7 +116,7 @@ Solution solve(FsiSystem& system, int outlet_count, double tolerance) {
   assembly::LinearSolver solver(system.mesh, system.pattern, system.isa, {.tolerance = tolerance});
   solver.update_preconditioner(system.matrix, outlets);
   Solution s{{}, 0.0, std::vector<double>(at(system.mesh.nodes()))};
-  s.result = solver.solve(system.matrix, outlets, b, s.x);
+  s.result = solver.solve(system.matrix, outlets, b, s.x, 0.0);
 
   auto r = system.product(s.x);
   for (const auto& term : outlets) {

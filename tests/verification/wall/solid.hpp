@@ -63,7 +63,7 @@ inline ProblemInput solid_input(const SolidCase& c, std::vector<std::pair<std::s
   in.newton.reference_fraction = 1e-12;
   in.newton.max_iterations = 30;
   in.newton.growth = 1e3;
-  in.linear.tolerance = 1e-6;
+  in.linear.tolerance = in.linear.first_tolerance = 1e-6;
   return in;
 }
 
