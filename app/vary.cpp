@@ -1,24 +1,11 @@
 // tunica vary: a case file made from another one.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "commands.hpp"
-#include "tunica/base/error.hpp"
-#include "tunica/mesh/series_file.hpp"
 #include "tunica/stages/variant.hpp"
 
 namespace tunica::app {
-namespace {
-
-void vary(const stages::VariantRequest& request, bool overwrite) {
-  if (!overwrite && std::filesystem::exists(request.output))
-    throw InputError(request.output.string(), "is there already", "give another name, or --overwrite");
-  mesh::write_atomically(request.output, stages::variant(request));
-  std::printf("%s\n", request.output.c_str());
-}
-
-}  // namespace
 
 void add_vary(CLI::App& app) {
   CLI::App* command = app.add_subcommand("vary", "A case file like another one, with other values of some keys");
@@ -41,8 +28,12 @@ void add_vary(CLI::App& app) {
       "Values are YAML. Results of the new case go into a folder beside it that bears its name, unless\n"
       "output.directory is set. Stages that it shares with another case can be shared: --set mesh.output=other/mesh");
   command->callback([given] {
-    vary({.case_file = given->file, .output = given->output, .settings = given->settings, .removed = given->removed},
-         given->overwrite);
+    stages::write_variant({.case_file = given->file,
+                           .output = given->output,
+                           .settings = given->settings,
+                           .removed = given->removed,
+                           .overwrite = given->overwrite});
+    std::printf("%s\n", given->output.c_str());
   });
 }
 

@@ -150,7 +150,7 @@ void run(const std::string& name, int steps, double tolerance, const std::string
   const MPI_Comm comm = MPI_COMM_WORLD;
   const bool root = parallel::rank(comm) == 0;
   Setting s = parallel::agree(comm, [&] { return make_setting(name, root); });
-  s.input.linear.tolerance = tolerance;
+  s.input.linear.tolerance = s.input.linear.first_tolerance = tolerance;
   const auto mesh = mesh::distribute(s.data, comm);
   s.data = {};
   Candidate candidate(walls, mesh, s.input);

@@ -44,20 +44,20 @@ struct NewtonSettings {
 
 struct LinearSettings {
   double tolerance = 1e-4;        ///< of the residual norm, relative to the right-hand side; never solved to less
-  double first_tolerance = 3e-3;  ///< the same in the first Newton iteration of a step
+  double first_tolerance = 3e-3;  ///< the same while another Newton iteration is expected
   int max_iterations = 500;
   int restart = 200;
 
   static config::Schema<LinearSettings> schema() {
     using namespace config;
     return Schema<LinearSettings>("linear",
-                                  "GMRES within a Newton iteration. It stops where Newton's method would be done, at "
-                                  "0.03 of the residual that ends the step, if that comes before its own tolerance.")
+                                  "GMRES within a Newton iteration. In the last one of a step it stops at 0.03 of the "
+                                  "residual that ends the step, if that comes before its own tolerance.")
         .number("tolerance", &LinearSettings::tolerance, range(1e-14, 0.5),
                 "Residual norm relative to the right-hand side")
         .by_default()
         .number("first_tolerance", &LinearSettings::first_tolerance, range(1e-14, 0.5),
-                "The same in the first Newton iteration of a step, which the curvature of the equations spoils anyway. "
+                "The same in the first Newton iterations of a step, after which another one follows anyway. "
                 "No larger than `tolerance`: every system is solved to `tolerance`")
         .by_default()
         .integer("max_iterations", &LinearSettings::max_iterations, range(1, 100000),

@@ -327,8 +327,10 @@ Schema<OutputSettings> OutputSettings::schema() {
       .by_default("results")
       .integer("every", &OutputSettings::every, config::range(1, 1e9), "Steps between two fields of the time series")
       .by_default()
-      .integer("checkpoint_every", &OutputSettings::checkpoint_every, config::range(1, 1e9),
-               "Steps between two checkpoints; one is also written at the end and when a run is interrupted")
+      .integer(
+          "checkpoint_every", &OutputSettings::checkpoint_every, config::range(1, 1e9),
+          "Steps between two checkpoints; one is also written after two minutes without, at the end, and when a run is "
+          "interrupted")
       .by_default()
       .section("units", &OutputSettings::units, OutputUnits::schema(), "Units of fields and histories")
       .by_default();

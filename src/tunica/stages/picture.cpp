@@ -354,6 +354,11 @@ void add_all_lines(vtkRenderer& scene, const std::vector<Layer>& layers, const S
       add_lines(scene, *layer.surface, {array, length, sight.axes[2]});
 }
 
+/// Letters grow with the picture; one that stands upright is narrow where they are.
+int letters(const PictureOptions& options, int share) {
+  return std::min(options.height, 2 * options.width / 3) / share;
+}
+
 void style_text(vtkTextProperty* text, int size) {
   text->SetFontFamilyToArial();
   text->SetColor(0.1, 0.1, 0.1);
@@ -368,7 +373,10 @@ void add_colour_bar(vtkRenderer& frame, const std::vector<Layer>& layers, const 
   const auto coloured = std::find_if(layers.begin(), layers.end(), [](const Layer& layer) { return layer.coloured; });
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(table);
-  bar->SetTitle((options.label.empty() && coloured != layers.end() ? coloured->array : options.label).c_str());
+  std::string name = options.label.empty() && coloured != layers.end() ? coloured->array : options.label;
+  if (const auto unit = name.find_last_of("[("); unit != std::string::npos && unit > 0 && name[unit - 1] == ' ')
+    name[unit - 1] = '\n';
+  bar->SetTitle(name.c_str());
   bar->SetNumberOfLabels(6);
   bar->SetLabelFormat("%.4g");
   bar->UnconstrainedFontSizeOn();
@@ -377,9 +385,9 @@ void add_colour_bar(vtkRenderer& frame, const std::vector<Layer>& layers, const 
   bar->SetBarRatio(0.25);
   bar->SetMaximumNumberOfColors(256);
   bar->SetTextPad(4);
-  bar->SetVerticalTitleSeparation(options.height / 60);
-  style_text(bar->GetTitleTextProperty(), std::max(10, options.height / 45));
-  style_text(bar->GetLabelTextProperty(), std::max(9, options.height / 50));
+  bar->SetVerticalTitleSeparation(letters(options, 60));
+  style_text(bar->GetTitleTextProperty(), std::max(10, letters(options, 45)));
+  style_text(bar->GetLabelTextProperty(), std::max(9, letters(options, 50)));
   frame.AddActor2D(bar);
 }
 
@@ -391,7 +399,7 @@ void add_title(vtkRenderer& frame, const PictureOptions& options, std::optional<
   title->SetInput(text.c_str());
   title->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   title->SetPosition(0.02, title_begin + 0.02);
-  style_text(title->GetTextProperty(), std::max(12, options.height / 32));
+  style_text(title->GetTextProperty(), std::max(12, letters(options, 32)));
   frame.AddActor2D(title);
 }
 

@@ -36,6 +36,9 @@ namespace {
 constexpr int static_halvings = 6;
 constexpr std::size_t kept_checkpoints = 2;
 
+/// What an end without warning costs at most, beside the step under way [s].
+constexpr double longest_without_checkpoint = 120;
+
 std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 void create_folder(const fs::path& folder) {
@@ -424,6 +427,7 @@ RunOutcome Run::steps() {
   const parallel::StopSignals signals;
   try {
     if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
+    double saved = MPI_Wtime();
     bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
     while (grid_.steps_done() < end && !periodic) {
       const auto done = grid_.steps_done();
@@ -432,7 +436,11 @@ RunOutcome Run::steps() {
         break;
       }
       if (grid_.steps_done() % case_.output.every == 0) write_fields();
-      if (grid_.steps_done() % case_.output.checkpoint_every == 0) save();
+      const bool overdue = parallel::any(comm_, MPI_Wtime() - saved > longest_without_checkpoint);
+      if (grid_.steps_done() % case_.output.checkpoint_every == 0 || overdue) {
+        save();
+        saved = MPI_Wtime();
+      }
       if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
       bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
     }

@@ -4,6 +4,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/config/document.hpp"
+#include "tunica/mesh/series_file.hpp"
 #include "tunica/stages/case.hpp"
 
 namespace tunica::stages {
@@ -29,6 +30,14 @@ std::string variant(const VariantRequest& request) {
                            config::commented_yaml(document, *description);
   parse_case(text, request.output);
   return text;
+}
+
+void write_variant(const VariantRequest& request) {
+  if (!request.overwrite && std::filesystem::exists(request.output))
+    throw InputError(request.output.string(), "is there already", "give another name, or --overwrite");
+  const std::string text = variant(request);
+  if (const auto folder = request.output.parent_path(); !folder.empty()) std::filesystem::create_directories(folder);
+  mesh::write_atomically(request.output, text);
 }
 
 }  // namespace tunica::stages

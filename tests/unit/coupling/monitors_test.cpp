@@ -26,7 +26,7 @@ ProblemInput flow_input() {
   in.fluid = fluid::Parameters{.density = 1000, .viscosity = fluid::Newtonian{0.004}};
   in.boundary.fluid = in.fluid;
   in.newton.relative_tolerance = 1e-8;
-  in.linear.tolerance = 1e-6;
+  in.linear.tolerance = in.linear.first_tolerance = 1e-6;
   return in;
 }
 

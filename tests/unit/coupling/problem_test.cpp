@@ -44,7 +44,7 @@ ProblemInput flow_input() {
   in.boundary.conditions = {
       {"lumen_inlet", test::pressure(500.0)}, {"lumen_outlet", windkessel()}, {"lumen_wall", bc::NoSlip{}}};
   in.newton.relative_tolerance = 1e-10;
-  in.linear.tolerance = 1e-6;
+  in.linear.tolerance = in.linear.first_tolerance = 1e-6;
   return in;
 }
 
@@ -60,7 +60,7 @@ ProblemInput bar_input(wall::Element element, double stress) {
                             {"y_max", bc::Free{}},
                             {"z_max", bc::Free{}}};
   in.newton.relative_tolerance = 1e-9;
-  in.linear.tolerance = 1e-6;
+  in.linear.tolerance = in.linear.first_tolerance = 1e-6;
   return in;
 }
 

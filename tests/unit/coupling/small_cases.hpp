@@ -63,7 +63,7 @@ inline coupling::ProblemInput fsi_input(bc::Condition inlet, bc::Condition outle
                             {"wall_outlet", bc::Fixed{}},
                             {"wall_outer", bc::Support{.stiffness = 1e7, .damping = 1e3}}};
   in.newton.relative_tolerance = 1e-6;
-  in.linear.tolerance = 1e-6;
+  in.linear.tolerance = in.linear.first_tolerance = 1e-6;
   return in;
 }
 
