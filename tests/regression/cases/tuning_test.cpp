@@ -113,6 +113,7 @@ TEST(Tuning, IsNotComputedTwiceAndNoticesChanges) {
   tune(file);
   const auto manifest = folder.path() / "outlets/cycle_1/manifest.json";
   const std::string before = slurp(manifest), outlets = slurp(folder.path() / "outlets/outlets.yaml");
+  MPI_Barrier(MPI_COMM_WORLD);
   // As after a kill within the first cycle.
   if (parallel::rank(MPI_COMM_WORLD) == 0) fs::remove(folder.path() / "outlets/outlets.yaml");
   MPI_Barrier(MPI_COMM_WORLD);
