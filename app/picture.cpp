@@ -64,7 +64,7 @@ void add_picture(CLI::App& app) {
   command->add_option("--label", o.label, "Of the colour bar; default: the name of the array");
   command->add_option("--range", a->limits, "Lowest and highest value of the colour bar; default: those in sight");
   command
-      ->add_option("--percentile", a->options.percentile,
+      ->add_option("--percentile", o.percentile,
                    "The colour bar ends where so many per cent of the values in sight lie below; default: 100")
       ->check(CLI::Range(1.0, 100.0));
   command->add_option("--title", o.title, "Text above the picture");

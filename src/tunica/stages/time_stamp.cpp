@@ -1,16 +1,11 @@
 #include "tunica/stages/time_stamp.hpp"
 
+#include <fmt/chrono.h>
+
 #include <ctime>
 
 namespace tunica::stages {
 
-std::string time_stamp() {
-  const std::time_t t = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&t, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
+std::string time_stamp() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 }  // namespace tunica::stages
