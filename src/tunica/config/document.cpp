@@ -86,7 +86,8 @@ void each_value(const Description& description, YAML::Node node, const Visit& vi
 std::string moved(const std::string& path, const fs::path& from, const fs::path& to) {
   if (fs::path(path).is_absolute()) return path;
   const fs::path full = fs::absolute(from / path).lexically_normal();
-  return full.lexically_relative(fs::absolute(to).lexically_normal()).string();
+  const fs::path base = to.empty() ? fs::current_path() : fs::absolute(to);  // the folder of a bare file name is empty
+  return full.lexically_relative(base.lexically_normal()).string();
 }
 
 // --- YAML text ------------------------------------------------------------------------------------------------------

@@ -71,6 +71,16 @@ TEST_F(Variant, RewritesPathsAndHasAFolderOfResultsOfItsOwn) {
   EXPECT_NE(chosen.find("directory: there"), std::string::npos) << chosen;
 }
 
+TEST_F(Variant, IsMadeInTheFolderOfTheCaseByBareNames) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_ / "cases");
+  write_variant({.case_file = "case.yaml", .output = "fast.yaml"});
+  fs::current_path(before);
+  std::ifstream file(folder_ / "cases" / "fast.yaml");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("simvascular: ../mesh"), std::string::npos) << text;
+}
+
 TEST_F(Variant, SaysWhatIsWrong) {
   EXPECT_NE(message({"time.step"}).find("is no setting"), std::string::npos);
   EXPECT_NE(message({"time.stop=1 ms"}).find("time.stop"), std::string::npos);
