@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tunica/wall/materials/aortic_tissue.hpp"
+
 namespace tunica::wall {
 
 namespace {
@@ -11,7 +13,11 @@ config::Schema<std::variant<P...>> schema_of(const std::variant<P...>*) {
   config::Schema<std::variant<P...>> s("material", "Wall law.");
   s.one_of();
   (s.alternative(P::schema()), ...);
-  return s;
+  return s.choice("aortic_tissue", config::emplace<DfdParameters>,
+                  {{"true_lumen_wall", aortic_tissue(AorticTissue::true_lumen_wall)},
+                   {"false_lumen_wall", aortic_tissue(AorticTissue::false_lumen_wall)},
+                   {"flap", aortic_tissue(AorticTissue::flap)}},
+                  "Dispersed fibres with parameters for a part of the dissected aorta, where none are measured");
 }
 
 Vec3<double> in_plane(double angle) { return {{std::cos(angle), std::sin(angle), 0.0}}; }

@@ -127,6 +127,39 @@ TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
                "run/faces.csv", "run/balance.csv", "run/checkpoints/step_00000030.checkpoint"});
 }
 
+/// Two cycles of the tube, the first of them to find the outlet.
+TEST_F(ChainCommand, KilledWhileOutletsAreTunedItComesToTheSameResult) {
+  write("inflow.csv", "t,Q\n0,5\n0.2,80\n0.4,5\n0.8,5\n");
+  const auto write_tuned = [&](const std::string& output) {
+    write("case.yaml", std::string(tube) +
+                           "analysis: fsi\nfluid: {}\n"
+                           "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 0.4 MPa, poisson_ratio: "
+                           "0.49}}}\n"
+                           "boundary:\n"
+                           "  lumen_inlet: {flow: {table: {file: inflow.csv, time_unit: s, unit: ml/s}}}\n"
+                           "  \"wall_*\": fixed\n"
+                           "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
+                           "prestress: {flow: {pressure: 75 mmHg, inflow: 5 ml/s, step: 10 ms, steps: 20}, tolerance: "
+                           "0.01 mm}\n"
+                           "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {lumen_outlet: 1}, step: 10 "
+                           "ms, tolerance: 0.1}\n"
+                           "time: {step: 10 ms, steps: 20, rho_infinity: 0.2}\npost: {}\nreport: {pictures: false}\n"
+                           "output: {directory: " +
+                           output + "}\n");
+  };
+  write_tuned("whole");
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  write_tuned("out");
+  kill_when_there("out/outlets/probe/steps.csv");
+  EXPECT_FALSE(fs::exists(folder_ / "out/outlets/cycle_1"));
+  kill_when_there("out/outlets/cycle_1/steps.csv");
+  EXPECT_EQ(nlohmann::json::parse(read("out/outlets/stage.json"))["status"], "running");
+  EXPECT_FALSE(fs::exists(folder_ / "out/outlets/outlets.yaml"));
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  expect_printed("(outlets for the pressures and flows that are asked for): it was interrupted");
+  expect_same("out/", "whole/", {"outlets/outlets.yaml", "run/faces.csv", "run/balance.csv"});
+}
+
 TEST_F(ChainCommand, WallLawsSideBySide) {
   write_case("4", "directory: out, every: 1");
   EXPECT_EQ(tunica("compare case.yaml"), 2);
