@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "tunica/base/error.hpp"
-#include "tunica/stages/tuning/identify.hpp"
+#include "tunica/stages/tuning/tuning_report.hpp"
 #include "verification/fluid/tube.hpp"
 
 namespace tunica::verification {
@@ -103,6 +103,23 @@ TEST(Twin, FollowsTheClosedFormOfOneWindkessel) {
   }
   say("  twin against the closed form of a Windkessel: off by %.2e of the largest pressure\n", worst / largest);
   EXPECT_LT(worst / largest, 1e-5);
+}
+
+// A cycle that starts from steady flow dips where the inflow jumps to that of the end of diastole.
+TEST(Twin, TheDipAtTheStartIsNotTheDiastolicPressure) {
+  const auto cycle =
+      stages::Twin(soft, stages::share_out(two_outlets(), totals), raised_cosine(), beat).periodic_cycle();
+  stages::TuningCycle tuning;
+  tuning.first = tuning.periodic = cycle;
+  for (std::size_t k = 0; k < cycle.times.size(); ++k) {
+    tuning.run.times.push_back(cycle.times[k]);
+    tuning.run.durations.push_back(beat / static_cast<double>(cycle.times.size()));
+    tuning.run.inlet_pressure.push_back(cycle.pressure[k] - 20 * mmHg * std::exp(-cycle.times[k] / 0.02));
+  }
+  const stages::Pressures periodic = stages::pressures(cycle), foreseen = tuning.foreseen();
+  EXPECT_LT(tuning.run.inlet_pressure.front(), periodic.diastolic - 10 * mmHg);
+  EXPECT_NEAR(foreseen.diastolic, periodic.diastolic, 1e-9 * periodic.diastolic);
+  EXPECT_NEAR(foreseen.systolic, periodic.systolic, 1e-9 * periodic.systolic);
 }
 
 TEST(Twin, TotalsMeetTheTargets) {

@@ -109,10 +109,8 @@ TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<
 
 double settled(const Measured& run) { return run.times[onset]; }
 
-Pressures pressures(const Measured& run) {
-  const auto first = run.inlet_pressure.begin() + static_cast<std::ptrdiff_t>(onset);
-  const auto [low, high] = std::minmax_element(first, run.inlet_pressure.end());
-  return {*high, *low, average(run, run.inlet_pressure)};
+Pressures first_pressures(const Measured& run) {
+  return first_pressures(run.times, run.inlet_pressure, average(run, run.inlet_pressure), settled(run));
 }
 
 std::vector<double> mean_flows(const Measured& run) {

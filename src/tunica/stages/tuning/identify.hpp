@@ -33,8 +33,7 @@ TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<
 
 /// Time after which a run answers to its vessel, not to its sudden start [s].
 double settled(const Measured& run);
-/// Extremes are those after `settled`.
-Pressures pressures(const Measured& run);
+Pressures first_pressures(const Measured& run);
 std::vector<double> mean_flows(const Measured& run);
 
 }  // namespace tunica::stages

@@ -22,8 +22,8 @@ struct TuningCycle {
   TwinCycle first, periodic;      ///< of the twin: from the same start, and when it repeats itself
   std::vector<double> fractions;  ///< of the mean outflow, in 3D
 
-  Pressures measured() const { return pressures(run); }
-  Pressures foreseen_first() const { return pressures(first, settled(run)); }
+  Pressures measured() const { return first_pressures(run); }
+  Pressures foreseen_first() const { return first_pressures(first, settled(run)); }
   /// Of the periodic state in 3D: what was measured, and the way that the twin has still to go, (7.6).
   Pressures foreseen() const;
   /// Largest difference from the targets, and of the mean from the twin's, relative.

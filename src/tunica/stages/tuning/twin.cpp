@@ -144,10 +144,20 @@ std::vector<bc::Rcr> share_out(const TuningCase& outlets, const Totals& totals) 
   return shared;
 }
 
-Pressures pressures(const TwinCycle& cycle, double settled) {
-  const auto begin = std::lower_bound(cycle.times.begin(), cycle.times.end(), settled) - cycle.times.begin();
-  const auto [low, high] = std::minmax_element(cycle.pressure.begin() + begin, cycle.pressure.end());
+Pressures pressures(const TwinCycle& cycle) {
+  const auto [low, high] = std::minmax_element(cycle.pressure.begin(), cycle.pressure.end());
   return {*high, *low, average(cycle.pressure)};
+}
+
+Pressures first_pressures(const std::vector<double>& times, const std::vector<double>& pressure, double mean,
+                          double settled) {
+  const auto begin = std::lower_bound(times.begin(), times.end(), settled) - times.begin();
+  const auto high = std::max_element(pressure.begin() + begin, pressure.end());
+  return {*high, *std::min_element(high, pressure.end()), mean};
+}
+
+Pressures first_pressures(const TwinCycle& cycle, double settled) {
+  return first_pressures(cycle.times, cycle.pressure, average(cycle.pressure), settled);
 }
 
 std::vector<double> mean_flows(const TwinCycle& cycle) {

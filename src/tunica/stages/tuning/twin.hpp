@@ -52,8 +52,14 @@ struct TwinCycle {
 struct Pressures {
   double systolic = 0, diastolic = 0, mean = 0;  ///< [Pa]
 };
-/// Extremes are those after the time `settled` [s].
-Pressures pressures(const TwinCycle& cycle, double settled = 0);
+/// Of a cycle that repeats itself.
+Pressures pressures(const TwinCycle& cycle);
+/// Of a cycle that starts from another state, such as steady flow: the largest pressure after the time `settled` [s],
+/// and the smallest one after that. Before the pulse the vessel still answers to the sudden start, and that minimum
+/// would pass for the diastolic pressure.
+Pressures first_pressures(const std::vector<double>& times, const std::vector<double>& pressure, double mean,
+                          double settled);
+Pressures first_pressures(const TwinCycle& cycle, double settled);
 std::vector<double> mean_flows(const TwinCycle& cycle);
 
 /// Second-order backward differences with a thousand steps in a period, each outlet exact for a flow linear in a step.
