@@ -202,13 +202,14 @@ TEST_F(ChainCommand, WhatIsWrongIsToldBeforeAnyWork) {
         "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.45}}}\n"
         "boundary: {lumen_inlet: {flow: 1 ml/s}, lumen_celiac: {resistance: 1e8 Pa s/m^3}, \"wall_*\": fixed, "
         "\"lid_*\": fixed}\n"
-        "time: {step: 1 ms, steps: 2}\n");
+        "time: {step: 1 ms, steps: 2}\npost: {end: lumen_femoral}\n");
   for (const char* command : {"run case.yaml", "check case.yaml"}) {
     EXPECT_EQ(tunica(command), 2);
     for (const char* text :
          {"boundary.lumen_celiac: the mesh has no such face",
           "boundary.lumen_left_iliac: this lumen face has no condition", "boundary.lid_*: stands for no face",
-          "fibres.regions.flop: the mesh will have no such region"})
+          "fibres.regions.flop: the mesh will have no such region",
+          "post.end: 'lumen_femoral' is no opening with a condition"})
       expect_printed(text);
   }
   EXPECT_FALSE(fs::exists(folder_ / "results"));

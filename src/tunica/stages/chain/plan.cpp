@@ -12,6 +12,7 @@
 #include "tunica/stages/load_mesh.hpp"
 #include "tunica/stages/meshing/assemble.hpp"
 #include "tunica/stages/meshing/wall_regions.hpp"
+#include "tunica/stages/post/vessel.hpp"
 
 namespace tunica::stages::chain {
 
@@ -67,6 +68,22 @@ void check_fibres(const Case& c, std::vector<Problem>& problems) {
   if (c.fibres && !c.mesh && c.fibres->inlet.empty())
     problems.push_back({"fibres.inlet", "names no face, and there is no `mesh` that would tell",
                         "name the ring of the wall where blood enters, and the cap of the lumen there"});
+}
+
+/// Faces that `post` will ask for, while nothing is computed yet: each is an outlet or has a condition.
+void check_post(const Case& c, std::vector<Problem>& problems) {
+  if (!c.post || !c.fluid) return;
+  std::vector<std::string> known;
+  for (const auto& [face, condition] : c.boundary) known.push_back(face);
+  if (c.outlets)
+    for (const auto& [face, share] : c.outlets->fractions) known.push_back(face);
+  const auto look_up = [&](const char* key, const std::string& face) {
+    if (std::none_of(known.begin(), known.end(), [&](const auto& pattern) { return matches(pattern, face); }))
+      problems.push_back(
+          {key, fmt::format("'{}' is no opening with a condition", face), "use one of: " + mesh::list_names(known)});
+  };
+  look_up("post.inlet", post::inlet_name(c, *c.post));
+  if (c.post->end) look_up("post.end", *c.post->end);
 }
 
 bool matters(const Stage& stage, const std::string& key) {
@@ -131,6 +148,7 @@ Chain read_chain(const fs::path& file, const std::optional<fs::path>& directory,
   std::vector<Problem> problems;
   if (chain.settings.mesh) check_faces_to_come(chain, problems);
   check_fibres(chain.settings, problems);
+  check_post(chain.settings, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return chain;
 }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tunica/stages/plot.hpp"
 #include "tunica/stages/post/report_files.hpp"
@@ -79,13 +81,24 @@ class Plots {
     write("pressure_difference_in_time.svg", in_time, title, "time [s]", label);
   }
 
+  /// The tears that carry the most, in their order along the aorta.
   void tears() {
     std::vector<Series> series;
-    for (const auto& tear : f_.vessel.tears)
-      if (series.size() + 2 < most_curves)
-        series.push_back({.name = tear.name,
-                          .x = f_.times,
-                          .y = scaled(f_.figures.column(column::tear(tear.name, "flow")), unit::ml)});
+    std::vector<std::pair<double, std::size_t>> by_flow;
+    for (const auto& tear : f_.vessel.tears) {
+      series.push_back({.name = tear.name,
+                        .x = f_.times,
+                        .y = scaled(f_.figures.column(column::tear(tear.name, "flow")), unit::ml)});
+      double largest = 0;
+      for (const double flow : series.back().y) largest = std::max(largest, std::abs(flow));
+      by_flow.emplace_back(largest, by_flow.size());
+    }
+    std::sort(by_flow.begin(), by_flow.end());
+    while (by_flow.size() + 2 > most_curves) {
+      series[by_flow.front().second].y.clear();
+      by_flow.erase(by_flow.begin());
+    }
+    std::erase_if(series, [](const Series& curve) { return curve.y.empty(); });
     series.push_back({.name = "out by openings", .x = f_.times, .y = scaled(f_.flow_out_of_false_lumen(), unit::ml)});
     series.push_back({.name = "dV/dt of the false lumen",
                       .x = f_.times,

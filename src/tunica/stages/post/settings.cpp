@@ -35,8 +35,9 @@ Schema<PostSettings> PostSettings::schema() {
       .quantity("from", &PostSettings::from, dimension::time, config::at_least(0), "Start of the window")
       .quantity("until", &PostSettings::until, dimension::time, config::above(0),
                 "End of the window; the last field when left out")
-      .text("inlet", &PostSettings::inlet, "Face of the lumen where blood enters the aorta: stations count from it")
-      .by_default()
+      .text("inlet", &PostSettings::inlet,
+            "Face of the lumen where blood enters the aorta: stations count from it; when left out the only one with a "
+            "`flow`, else lumen_inlet")
       .text("end", &PostSettings::end,
             "Face of the lumen where the aorta ends; when left out the opening that is farthest from the inlet")
       .quantity("spacing", &PostSettings::spacing, dimension::length, config::above(0),

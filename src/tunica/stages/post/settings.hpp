@@ -14,7 +14,7 @@ namespace tunica::stages {
 struct PostSettings {
   std::optional<double> period;                 ///< of the heart beat [s]
   std::optional<double> from, until;            ///< the window, instead of the last period [s]
-  std::string inlet = "lumen_inlet";            ///< face where the blood enters the aorta
+  std::optional<std::string> inlet;             ///< face where the blood enters the aorta; else see inlet_name()
   std::optional<std::string> end;               ///< face where the aorta ends; else the opening farthest from the inlet
   double spacing = 5e-3;                        ///< of stations along the centreline [m]
   std::vector<double> percentiles;              ///< of stresses [%]

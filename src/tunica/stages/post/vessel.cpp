@@ -70,9 +70,9 @@ void check_regions(const PostSettings& settings, const mesh::MeshData& data, std
 }
 
 /// Faces and regions that the settings name. Throws InputError with all that the mesh does not have.
-void find_ends(const PostSettings& settings, const mesh::MeshData& data, Vessel& vessel) {
+void find_ends(const Case& c, const PostSettings& settings, const mesh::MeshData& data, Vessel& vessel) {
   std::vector<Problem> problems;
-  vessel.inlet = opening_face(vessel, settings.inlet, "inlet", problems);
+  vessel.inlet = opening_face(vessel, inlet_name(c, settings), "inlet", problems);
   if (settings.end) vessel.end = opening_face(vessel, *settings.end, "end", problems);
   check_regions(settings, data, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -199,6 +199,14 @@ const mesh::RegionData* lumen_region(const mesh::MeshData& data) {
   return nullptr;
 }
 
+std::string inlet_name(const Case& c, const PostSettings& settings) {
+  if (settings.inlet) return *settings.inlet;
+  std::vector<std::string> inflows;
+  for (const auto& [face, condition] : c.boundary)
+    if (std::holds_alternative<bc::Flow>(condition)) inflows.push_back(face);
+  return inflows.size() == 1 ? inflows[0] : "lumen_inlet";
+}
+
 Vessel make_vessel(const Case& c, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm) {
   Vessel vessel;
   if (!c.solves_fluid()) {
@@ -207,7 +215,7 @@ Vessel make_vessel(const Case& c, const PostSettings& settings, const mesh::Mesh
     return vessel;
   }
   sort_faces(c, data, vessel);
-  find_ends(settings, data, vessel);
+  find_ends(c, settings, data, vessel);
   const auto walls = lumen_walls(c, settings, data, vessel);
   const auto mesh = mesh::distribute(data, comm);
   vessel.along = potential_along(c, data, mesh, vessel);

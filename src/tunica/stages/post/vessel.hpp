@@ -57,6 +57,9 @@ struct Vessel {
   std::vector<LeftOut> left_out;
 };
 
+/// Face where the blood enters the aorta: that of the settings, else the only one with a flow, else lumen_inlet.
+std::string inlet_name(const Case& c, const PostSettings& settings);
+
 /// `data`: the same on all ranks. Throws InputError for faces and regions that the mesh does not have. Collective.
 Vessel make_vessel(const Case& c, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm);
 
