@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 #include "tunica/wall/material_paths.hpp"
@@ -10,31 +11,39 @@
 namespace tunica::wall {
 namespace {
 
-constexpr AorticTissue tissues[] = {AorticTissue::true_lumen_wall, AorticTissue::false_lumen_wall, AorticTissue::flap};
+/// Choosing a rule takes seconds without optimisation.
+Law with_few_directions(DfdParameters p) {
+  p.rule = dfd::Product{4, 16};
+  return p.law();
+}
 
-/// Young's modulus at rest [Pa] along e1 (0) or e2 (1).
-double modulus_at_rest(AorticTissue tissue, int axis) {
-  const Law law = aortic_tissue(tissue).law();
+/// Young's modulus at rest [Pa] along e1 and e2.
+std::array<double, 2> moduli_at_rest(AorticTissue tissue) {
+  const Law law = with_few_directions(aortic_tissue(tissue));
   const Volumetric incompressible;
   const double strain = 1e-4;
-  Vec3<double> along{};
-  along[axis] = 1.0;
   const PathPoint start = deformed(law, incompressible, identity<double>());
-  return stretched(law, incompressible, specimen_axes(along), {1.0 + strain, {}}, start).state.cauchy[axis] / strain;
+  std::array<double, 2> moduli{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    Vec3<double> along{};
+    along[static_cast<int>(axis)] = 1.0;
+    moduli[axis] =
+        stretched(law, incompressible, specimen_axes(along), {1.0 + strain, {}}, start).state.cauchy[axis] / strain;
+  }
+  return moduli;
 }
 
 TEST(AorticTissue, ModuliAtRestAreThoseOfTheAorta) {
-  for (const AorticTissue tissue : tissues) {
-    for (const int axis : {0, 1}) {
-      EXPECT_GT(modulus_at_rest(tissue, axis), 200e3);
-      EXPECT_LT(modulus_at_rest(tissue, axis), 800e3);
-    }
-    EXPECT_GT(modulus_at_rest(tissue, 0), modulus_at_rest(tissue, 1)) << "fibres lie nearer to the circumference";
+  const auto wall = moduli_at_rest(AorticTissue::true_lumen_wall),
+             outer = moduli_at_rest(AorticTissue::false_lumen_wall), flap = moduli_at_rest(AorticTissue::flap);
+  for (const auto& moduli : {wall, outer, flap}) {
+    EXPECT_GT(moduli[0], moduli[1]) << "fibres lie nearer to the circumference";
+    EXPECT_GT(moduli[1], 200e3);
+    EXPECT_LT(moduli[0], 800e3);
   }
-  for (const int axis : {0, 1}) {
-    const double wall = modulus_at_rest(AorticTissue::true_lumen_wall, axis);
-    EXPECT_GT(modulus_at_rest(AorticTissue::false_lumen_wall, axis), wall);
-    EXPECT_LT(modulus_at_rest(AorticTissue::flap, axis), wall);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    EXPECT_GT(outer[axis], wall[axis]);
+    EXPECT_LT(flap[axis], wall[axis]);
   }
 }
 
@@ -53,12 +62,13 @@ TEST(AorticTissue, CaseFilesNameThem) {
 )");
   const auto stress = [](const DfdParameters& p) {
     const Volumetric incompressible;
-    const Law law = p.law();
+    const Law law = with_few_directions(p);
     return stretched(law, incompressible, specimen_axes({{1.0, 0.2, 0.0}}), {1.2, 1.1},
                      deformed(law, incompressible, identity<double>()))
         .state.cauchy;
   };
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(stress(named)[i], stress(written)[i], 1e-6);
+  const auto one = stress(named), other = stress(written);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(one[i], other[i], 1e-6);
   EXPECT_NEAR(named.bulk_modulus(), written.bulk_modulus(), 1e-6);
   EXPECT_THROW(read("aortic_tissue: intima"), InputError);
 }
