@@ -70,13 +70,11 @@ void check_fibres(const Case& c, std::vector<Problem>& problems) {
                         "name the ring of the wall where blood enters, and the cap of the lumen there"});
 }
 
-/// Faces that `post` will ask for, while nothing is computed yet: each is an outlet or has a condition.
+/// Faces that `post` will ask for, while nothing is computed yet. Outlets to be tuned have their conditions already.
 void check_post(const Case& c, std::vector<Problem>& problems) {
   if (!c.post || !c.fluid) return;
   std::vector<std::string> known;
   for (const auto& [face, condition] : c.boundary) known.push_back(face);
-  if (c.outlets)
-    for (const auto& [face, share] : c.outlets->fractions) known.push_back(face);
   const auto look_up = [&](const char* key, const std::string& face) {
     if (std::none_of(known.begin(), known.end(), [&](const auto& pattern) { return matches(pattern, face); }))
       problems.push_back(
