@@ -5,23 +5,23 @@
 
 #include "commands.hpp"
 #include "file_command.hpp"
-#include "tunica/stages/chain/chain.hpp"
-#include "tunica/stages/load_mesh.hpp"
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/pipeline/chain.hpp"
 #include "version.hpp"
 
 namespace tunica::app {
 namespace {
 
 void check(const std::filesystem::path& file) {
-  const auto parsed = stages::read_case(file);
+  const auto parsed = case_file::read_case(file);
   if (parsed.value.is_chain()) {
-    for (const auto& line : stages::chain::check_chain({.case_file = file, .program = {version(), commit()}}))
+    for (const auto& line : pipeline::check_chain({.case_file = file, .program = {version(), commit()}}))
       std::printf("%s\n", line.c_str());
     std::printf("%s: no errors that can be found before its stages are done\n", file.c_str());
     return;
   }
   print_warnings(parsed.warnings);
-  const auto mesh = stages::load_mesh(parsed.value);
+  const auto mesh = artifacts::load_mesh(parsed.value);
   for (const auto& line : mesh.report) std::printf("%s\n", line.c_str());
   for (const auto& warning : mesh.warnings) std::printf("warning: %s\n", warning.c_str());
   const std::size_t warnings = parsed.warnings.size() + mesh.warnings.size();

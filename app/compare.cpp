@@ -1,5 +1,5 @@
 // tunica compare: the same case with several wall laws.
-#include "tunica/stages/chain/compare.hpp"
+#include "tunica/pipeline/compare.hpp"
 
 #include <mpi.h>
 
@@ -14,11 +14,11 @@ namespace tunica::app {
 namespace {
 
 int compare(const FileRequest& given) {
-  stages::chain::ChainRequest request{.case_file = given.file};
+  pipeline::ChainRequest request{.case_file = given.file};
   if (!given.output.empty()) request.directory = given.output;
   request.overwrite = given.overwrite;
   request.program = {version(), commit()};
-  const int signal = stages::chain::compare_laws(request, MPI_COMM_WORLD, stdout);
+  const int signal = pipeline::compare_laws(request, MPI_COMM_WORLD, stdout);
   return signal == 0 ? 0 : 128 + signal;
 }
 

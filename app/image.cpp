@@ -9,10 +9,10 @@ namespace tunica::app {
 namespace {
 
 void image(const FileRequest& request) {
-  auto parsed = stages::imaging::read_scan_case(request.file);
+  auto parsed = stages::read_scan_case(request.file);
   print_warnings(parsed.warnings);
   if (!request.output.empty()) parsed.value.output = request.output;
-  const auto section = stages::imaging::scan_to_file(parsed.value, request.overwrite);
+  const auto section = stages::scan_to_file(parsed.value, request.overwrite);
   std::printf("written: %s. To mesh it, a file beside it for `tunica mesh` begins with\n\n%s",
               parsed.value.output.c_str(), section.c_str());
 }

@@ -1,5 +1,5 @@
 // tunica material: a wall law in the tests of an experimenter.
-#include "tunica/stages/material.hpp"
+#include "tunica/stages/material/material.hpp"
 
 #include <cstdio>
 #include <memory>

@@ -9,14 +9,14 @@ namespace tunica::app {
 namespace {
 
 void mesh(const FileRequest& request) {
-  auto parsed = stages::meshing::read_mesh_case(request.file);
+  auto parsed = case_file::read_mesh_case(request.file);
   print_warnings(parsed.warnings);
   if (!request.output.empty()) parsed.value.output = request.output;
   const auto say = [](const std::string& line) {
     std::printf("%s\n", line.c_str());
     std::fflush(stdout);
   };
-  const auto report = stages::meshing::mesh_to_files(parsed.value, request.overwrite, say);
+  const auto report = stages::mesh_to_files(parsed.value, request.overwrite, say);
   std::printf(
       "\n%s\nwritten to %s: lumen/, wall/, meshes.yaml (the section `meshes` of a case file), report.json, "
       "report.html\n",

@@ -1,5 +1,5 @@
 // tunica picture: a PNG of results.
-#include "tunica/stages/picture.hpp"
+#include "tunica/drawing/picture.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -11,7 +11,7 @@ namespace {
 
 /// What CLI11 fills, before it becomes PictureOptions.
 struct Arguments {
-  stages::PictureOptions options;
+  drawing::PictureOptions options;
   double time = 0.0;
   int component = 0;
   std::array<double, 2> limits{};
@@ -24,18 +24,18 @@ struct Arguments {
 Vec3<double> vector(const double* x) { return {{x[0], x[1], x[2]}}; }
 
 void picture(const CLI::App& command, const Arguments& arguments) {
-  stages::PictureOptions options = arguments.options;
+  drawing::PictureOptions options = arguments.options;
   if (command.count("--time")) options.time = arguments.time;
   if (command.count("--component")) options.component = arguments.component;
   if (command.count("--range")) options.limits = arguments.limits;
   if (command.count("--clip"))
-    options.clip = stages::ClipPlane{vector(arguments.clip.data()), vector(arguments.clip.data() + 3)};
-  if (command.count("--focus")) options.focus = stages::Focus{vector(arguments.focus.data()), arguments.focus[3]};
+    options.clip = drawing::ClipPlane{vector(arguments.clip.data()), vector(arguments.clip.data() + 3)};
+  if (command.count("--focus")) options.focus = drawing::Focus{vector(arguments.focus.data()), arguments.focus[3]};
   options.view = vector(arguments.view.data());
   options.up = vector(arguments.up.data());
   options.width = arguments.size[0];
   options.height = arguments.size[1];
-  const auto summary = stages::render(options);
+  const auto summary = drawing::render(options);
   std::printf("%s: ", options.output.c_str());
   if (summary.time) std::printf("t = %g s, ", *summary.time);
   if (options.array.empty()) {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "tunica/stages/history_plot.hpp"
+#include "tunica/drawing/history_plot.hpp"
 
 namespace tunica::app {
 
@@ -12,7 +12,7 @@ void add_plot(CLI::App& app) {
   command->footer(
       "A name chooses all columns whose header contains it. Example:\n"
       "  tunica plot results/faces.csv pressure -o pressure.svg");
-  const auto options = std::make_shared<stages::HistoryPlotOptions>();
+  const auto options = std::make_shared<drawing::HistoryPlotOptions>();
   command->add_option("history", options->history, "A history that a run wrote: faces.csv, balance.csv, ...")
       ->required();
   command->add_option("columns", options->columns, "Columns to draw")->required();
@@ -20,7 +20,7 @@ void add_plot(CLI::App& app) {
   command->add_option("-o,--output", options->output, "The plot, ending in .svg or .png")->required();
   command->add_option("--title", options->title, "Text above the plot");
   command->callback([options] {
-    for (const auto& name : stages::plot_history(*options)) std::printf("%s\n", name.c_str());
+    for (const auto& name : drawing::plot_history(*options)) std::printf("%s\n", name.c_str());
   });
 }
 

@@ -7,8 +7,8 @@
 #include "commands.hpp"
 #include "session.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/stages/chain/chain.hpp"
-#include "tunica/stages/run.hpp"
+#include "tunica/pipeline/chain.hpp"
+#include "tunica/stages/run/run.hpp"
 #include "version.hpp"
 
 namespace tunica::app {
@@ -34,13 +34,13 @@ void refuse(bool given, const char* option, const char* what, const char* remedy
 int run_stages(const Options& o) {
   refuse(!o.restart_file.empty(), "--restart", "names a checkpoint, but the case has several stages",
          "leave out the file: an interrupted stage continues by itself");
-  stages::chain::ChainRequest request{.case_file = o.request.case_file, .directory = o.request.directory};
+  pipeline::ChainRequest request{.case_file = o.request.case_file, .directory = o.request.directory};
   if (!o.until.empty()) request.until = o.until;
   if (!o.from.empty()) request.from = o.from;
   request.overwrite = o.request.overwrite;
   request.dry_run = o.dry_run;
   request.program = o.request.program;
-  const int signal = stages::chain::run_chain(request, MPI_COMM_WORLD, stdout);
+  const int signal = pipeline::run_chain(request, MPI_COMM_WORLD, stdout);
   return signal == 0 ? 0 : 128 + signal;
 }
 
@@ -58,7 +58,7 @@ int run_alone(Options& o) {
 }
 
 int run_either(Options& o) {
-  return stages::chain::is_chain(o.request.case_file, MPI_COMM_WORLD) ? run_stages(o) : run_alone(o);
+  return pipeline::is_chain(o.request.case_file, MPI_COMM_WORLD) ? run_stages(o) : run_alone(o);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "tunica/stages/case.hpp"
-#include "tunica/stages/fibres/fibres_case.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/case/fibres_case.hpp"
+#include "tunica/case/material_case.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
-#include "tunica/stages/material_case.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/report/report.hpp"
 
@@ -31,11 +31,11 @@ void add_schema(CLI::App& app) {
     bool wanted = false;
   };
   const auto kinds = std::make_shared<std::vector<Kind>>(std::vector<Kind>{
-      {"material", [] { return Description(stages::MaterialCase::schema().description()); }},
-      {"mesh", [] { return Description(stages::meshing::MeshCase::schema().description()); }},
-      {"fibres", [] { return Description(stages::fibres::FibresCase::schema().description()); }},
+      {"material", [] { return Description(case_file::MaterialCase::schema().description()); }},
+      {"mesh", [] { return Description(case_file::MeshCase::schema().description()); }},
+      {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},
-      {"image", [] { return Description(stages::imaging::ScanCase::schema().description()); }},
+      {"image", [] { return Description(stages::ScanCase::schema().description()); }},
   });
   auto* group = command->add_option_group("file", "Whose file is described instead of that of `tunica run`");
   for (Kind& kind : *kinds)
@@ -43,7 +43,8 @@ void add_schema(CLI::App& app) {
   group->require_option(0, 1);
   command->callback([json, kinds] {
     const auto wanted = std::find_if(kinds->begin(), kinds->end(), [](const Kind& k) { return k.wanted; });
-    const Description description = wanted == kinds->end() ? stages::Case::schema().description() : wanted->describe();
+    const Description description =
+        wanted == kinds->end() ? case_file::Case::schema().description() : wanted->describe();
     std::fputs((*json ? config::json_schema(*description) : config::markdown(*description)).c_str(), stdout);
   });
 }

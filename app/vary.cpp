@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "tunica/stages/variant.hpp"
+#include "tunica/case/variant.hpp"
 
 namespace tunica::app {
 
@@ -28,11 +28,11 @@ void add_vary(CLI::App& app) {
       "Values are YAML. Results of the new case go into a folder beside it that bears its name, unless\n"
       "output.directory is set. Stages that it shares with another case can be shared: --set mesh.output=other/mesh");
   command->callback([given] {
-    stages::write_variant({.case_file = given->file,
-                           .output = given->output,
-                           .settings = given->settings,
-                           .removed = given->removed,
-                           .overwrite = given->overwrite});
+    case_file::write_variant({.case_file = given->file,
+                              .output = given->output,
+                              .settings = given->settings,
+                              .removed = given->removed,
+                              .overwrite = given->overwrite});
     std::printf("%s\n", given->output.c_str());
   });
 }

@@ -1,5 +1,5 @@
 // tunica verify: the dispersed fibres against their analytic solution.
-#include "tunica/stages/verify.hpp"
+#include "tunica/stages/material/verify.hpp"
 
 #include <memory>
 

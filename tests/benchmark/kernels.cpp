@@ -20,7 +20,7 @@ using namespace tunica;
 
 struct Setting {
   assembly::Isa isa = assembly::choose_isa();
-  mesh::DistributedMesh mesh;
+  distributed::DistributedMesh mesh;
   assembly::BlockPattern pattern;
   assembly::BlockMatrix matrix;
   std::vector<double> reference, position, velocity_pressure, acceleration, mesh_velocity, displacement, residual;
@@ -36,14 +36,14 @@ struct Setting {
   }
 
   Setting()
-      : mesh(mesh::distribute(mesh::tube({.radius = 0.01,
-                                          .length = 0.1,
-                                          .wall_thickness = 0.002,
-                                          .cells_around = 64,
-                                          .cells_radial = 8,
-                                          .cells_along = 64,
-                                          .cells_through_wall = 3}),
-                              MPI_COMM_WORLD)),
+      : mesh(distributed::distribute(mesh::tube({.radius = 0.01,
+                                                 .length = 0.1,
+                                                 .wall_thickness = 0.002,
+                                                 .cells_around = 64,
+                                                 .cells_radial = 8,
+                                                 .cells_along = 64,
+                                                 .cells_through_wall = 3}),
+                                     MPI_COMM_WORLD)),
         pattern(assembly::make_pattern(mesh)),
         matrix(pattern),
         wall_model(mesh, wall_parameters()) {

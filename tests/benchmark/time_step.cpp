@@ -21,7 +21,7 @@
 #include "tunica/coupling/problem.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
-#include "tunica/mesh/simvascular.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/message.hpp"
 #include "tunica/parallel/petsc.hpp"
@@ -40,10 +40,10 @@ mesh::MeshData read_pipe() {
   const std::filesystem::path folder = std::filesystem::path(TUNICA_SHARED_DATA) / "pipe_fsi";
   if (!std::filesystem::exists(folder))
     throw InputError(folder.string(), "the folder does not exist", "run this benchmark beside the shared data");
-  const mesh::SimVascularOptions options{.metres_per_unit = 0.01};
+  const mesh_io::SimVascularOptions options{.metres_per_unit = 0.01};
   const mesh::LoadedMesh parts[2] = {
-      mesh::read_simvascular(folder / "lumen", mesh::RegionKind::lumen, "lumen", options),
-      mesh::read_simvascular(folder / "wall", mesh::RegionKind::wall, "wall", options)};
+      mesh_io::read_simvascular(folder / "lumen", mesh::RegionKind::lumen, "lumen", options),
+      mesh_io::read_simvascular(folder / "wall", mesh::RegionKind::wall, "wall", options)};
   const mesh::Interface pair{{"lumen_wall"}, {"wall_inner"}};
   return mesh::join(parts, std::span(&pair, 1), {}).data;
 }
@@ -107,7 +107,8 @@ Setting make_setting(const std::string& name, bool root) {
 
 /// A problem and what its steps took.
 struct Candidate {
-  Candidate(std::string law, const mesh::DistributedMesh& mesh, coupling::ProblemInput input) : name(std::move(law)) {
+  Candidate(std::string law, const distributed::DistributedMesh& mesh, coupling::ProblemInput input)
+      : name(std::move(law)) {
     input.wall->material = wall_law(name);
     problem = std::make_unique<coupling::Problem>(mesh, input);
     state = problem->initial_state();
@@ -151,7 +152,7 @@ void run(const std::string& name, int steps, double tolerance, const std::string
   const bool root = parallel::rank(comm) == 0;
   Setting s = parallel::agree(comm, [&] { return make_setting(name, root); });
   s.input.linear.tolerance = s.input.linear.first_tolerance = tolerance;
-  const auto mesh = mesh::distribute(s.data, comm);
+  const auto mesh = distributed::distribute(s.data, comm);
   s.data = {};
   Candidate candidate(walls, mesh, s.input);
   if (root)

@@ -14,7 +14,7 @@ struct Selection {
 };
 
 // The distinct nodes of an element and of their hosts.
-int coupled_nodes(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
+int coupled_nodes(const distributed::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
                   std::array<std::int32_t, 8>& nodes) {
   int n = 0;
   for (const auto node : element) nodes[n++] = node;
@@ -24,7 +24,7 @@ int coupled_nodes(const mesh::DistributedMesh& mesh, const std::array<std::int32
 }
 
 template <class Visit>
-void for_each_pair(const mesh::DistributedMesh& mesh, const Selection& selection, Visit visit) {
+void for_each_pair(const distributed::DistributedMesh& mesh, const Selection& selection, Visit visit) {
   std::array<std::int32_t, 8> nodes;
   for (const auto& region : mesh.regions) {
     if (selection.kind && region.kind != *selection.kind) continue;
@@ -45,7 +45,7 @@ void for_each_pair(const mesh::DistributedMesh& mesh, const Selection& selection
   }
 }
 
-BlockPattern build(const mesh::DistributedMesh& mesh, const Selection& selection) {
+BlockPattern build(const distributed::DistributedMesh& mesh, const Selection& selection) {
   BlockPattern pattern;
   pattern.rows = mesh.owned_nodes;
   pattern.columns_count = mesh.nodes();
@@ -82,12 +82,14 @@ std::int32_t BlockPattern::slot(std::int32_t row, std::int32_t column) const {
   return static_cast<std::int32_t>(it - columns.begin());
 }
 
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh) { return build(mesh, {}); }
+BlockPattern make_pattern(const distributed::DistributedMesh& mesh) { return build(mesh, {}); }
 
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind) {
+BlockPattern make_pattern(const distributed::DistributedMesh& mesh, mesh::RegionKind kind) {
   return build(mesh, {kind, true});
 }
 
-BlockPattern make_pressure_pattern(const mesh::DistributedMesh& mesh) { return build(mesh, {std::nullopt, false}); }
+BlockPattern make_pressure_pattern(const distributed::DistributedMesh& mesh) {
+  return build(mesh, {std::nullopt, false});
+}
 
 }  // namespace tunica::assembly

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::assembly {
 
@@ -25,12 +25,12 @@ struct BlockPattern {
 };
 
 /// Pattern of all regions.
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh);
+BlockPattern make_pattern(const distributed::DistributedMesh& mesh);
 
 /// Which pressures couple: nodes of the same element, and a twin with its host (through the motion that they share).
-BlockPattern make_pressure_pattern(const mesh::DistributedMesh& mesh);
+BlockPattern make_pressure_pattern(const distributed::DistributedMesh& mesh);
 
 /// Pattern of the regions of one kind; nodes of other regions have their diagonal block only.
-BlockPattern make_pattern(const mesh::DistributedMesh& mesh, mesh::RegionKind kind);
+BlockPattern make_pattern(const distributed::DistributedMesh& mesh, mesh::RegionKind kind);
 
 }  // namespace tunica::assembly

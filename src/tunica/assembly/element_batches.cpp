@@ -6,26 +6,26 @@ namespace tunica::assembly {
 
 namespace {
 
-bool is_split(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element) {
+bool is_split(const distributed::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element) {
   return std::any_of(element.begin(), element.end(), [&](std::int32_t node) { return mesh.host[node] != node; });
 }
 
 }  // namespace
 
-std::vector<std::int32_t> elements_beside_hosts(const mesh::DistributedMesh& mesh, const mesh::Region& region,
-                                                bool split) {
+std::vector<std::int32_t> elements_beside_hosts(const distributed::DistributedMesh& mesh,
+                                                const distributed::Region& region, bool split) {
   std::vector<std::int32_t> result;
   for (std::size_t e = 0; e < region.elements.size(); ++e)
     if (is_split(mesh, region.elements[e]) == split) result.push_back(static_cast<std::int32_t>(e));
   return result;
 }
 
-ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region, const BlockPattern& pattern,
-                            int width, bool split) {
+ElementBatches make_batches(const distributed::DistributedMesh& mesh, const distributed::Region& region,
+                            const BlockPattern& pattern, int width, bool split) {
   return make_batches(mesh, region, elements_beside_hosts(mesh, region, split), pattern, width, split);
 }
 
-ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+ElementBatches make_batches(const distributed::DistributedMesh& mesh, const distributed::Region& region,
                             std::vector<std::int32_t> elements, const BlockPattern& pattern, int width, bool split) {
   ElementBatches result;
   result.width = width;

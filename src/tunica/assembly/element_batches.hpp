@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tunica/assembly/block_pattern.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::assembly {
 
@@ -33,15 +33,15 @@ struct ElementBatches {
 };
 
 /// Positions in Region::elements of those that are (`split`) or are not next to a host, in the order of the region.
-std::vector<std::int32_t> elements_beside_hosts(const mesh::DistributedMesh& mesh, const mesh::Region& region,
-                                                bool split);
+std::vector<std::int32_t> elements_beside_hosts(const distributed::DistributedMesh& mesh,
+                                                const distributed::Region& region, bool split);
 
 /// Batches of some elements of `region`, all of which are (`split`) or are not next to a host.
-ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+ElementBatches make_batches(const distributed::DistributedMesh& mesh, const distributed::Region& region,
                             std::vector<std::int32_t> elements, const BlockPattern& pattern, int width, bool split);
 
 /// Batches of all elements of `region` that are (`split`) or are not next to a host.
-ElementBatches make_batches(const mesh::DistributedMesh& mesh, const mesh::Region& region, const BlockPattern& pattern,
-                            int width, bool split);
+ElementBatches make_batches(const distributed::DistributedMesh& mesh, const distributed::Region& region,
+                            const BlockPattern& pattern, int width, bool split);
 
 }  // namespace tunica::assembly

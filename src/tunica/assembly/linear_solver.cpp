@@ -61,7 +61,7 @@ std::vector<double> dense_inverse(std::vector<double> a, std::size_t n) {
 
 }  // namespace
 
-LinearSolver::LinearSolver(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa,
+LinearSolver::LinearSolver(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa,
                            KrylovSettings settings)
     : mesh_(mesh),
       isa_(isa),

@@ -19,7 +19,7 @@ namespace tunica::assembly {
 /// application per outlet at set-up.
 class LinearSolver {
  public:
-  LinearSolver(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa, KrylovSettings settings);
+  LinearSolver(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa, KrylovSettings settings);
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
@@ -38,7 +38,7 @@ class LinearSolver {
   void multiply(const double* x, double* y);
   void precondition(const double* r, double* z);
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   Isa isa_;
   SchurPreconditioner preconditioner_;
   const BlockMatrix* matrix_ = nullptr;

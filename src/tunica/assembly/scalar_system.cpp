@@ -11,7 +11,7 @@ namespace tunica::assembly {
 
 using parallel::check;
 
-ScalarSystem::ScalarSystem(const mesh::DistributedMesh& mesh, const ScalarEntries& entries, std::string name)
+ScalarSystem::ScalarSystem(const distributed::DistributedMesh& mesh, const ScalarEntries& entries, std::string name)
     : mesh_(mesh), name_(std::move(name)) {
   const PetscInt n = mesh.owned_nodes;
   check(MatCreate(mesh.comm, matrix_.out()));

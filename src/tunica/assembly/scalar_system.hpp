@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/parallel/petsc.hpp"
 
 namespace tunica::assembly {
@@ -28,7 +28,7 @@ struct ScalarEntries {
 class ScalarSystem {
  public:
   /// Every owned node needs a diagonal entry. `name` begins the messages of errors. Collective.
-  ScalarSystem(const mesh::DistributedMesh& mesh, const ScalarEntries& entries, std::string name);
+  ScalarSystem(const distributed::DistributedMesh& mesh, const ScalarEntries& entries, std::string name);
 
   /// Solution on all local nodes, ghosts included, to a relative residual of 1e-10 in the norm of the preconditioner.
   /// `rhs`: of the owned nodes. Throws SolverError when 200 iterations do not suffice. Collective.
@@ -36,7 +36,7 @@ class ScalarSystem {
   int iterations() const { return iterations_; }  ///< of the last solve
 
  private:
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   std::string name_;
   int iterations_ = 0;
   parallel::MatHandle matrix_;

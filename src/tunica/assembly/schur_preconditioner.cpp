@@ -14,7 +14,7 @@ namespace tunica::assembly {
 
 using parallel::check;
 
-SchurPreconditioner::SchurPreconditioner(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa)
+SchurPreconditioner::SchurPreconditioner(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa)
     : mesh_(mesh), pattern_(pattern), isa_(isa) {
   const std::int32_t n = pattern.rows;
   for (std::int32_t i = 0; i < n; ++i) {

@@ -16,14 +16,14 @@
 
 #include "tunica/assembly/block_kernels.hpp"
 #include "tunica/assembly/block_matrix.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/parallel/petsc.hpp"
 
 namespace tunica::assembly {
 
 class SchurPreconditioner {
  public:
-  SchurPreconditioner(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa);
+  SchurPreconditioner(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa);
 
   /// Recomputes factors and multigrid hierarchy. Throws SolverError when a diagonal block is singular. Collective.
   void update(const BlockMatrix& matrix);
@@ -44,7 +44,7 @@ class SchurPreconditioner {
   void build_schur(const BlockMatrix& matrix);
   void make_laplacians();
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   const BlockPattern& pattern_;
   Isa isa_;
 

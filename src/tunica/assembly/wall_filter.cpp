@@ -1,19 +1,19 @@
 #include "tunica/assembly/wall_filter.hpp"
 
-#include "tunica/mesh/element_shape.hpp"
+#include "tunica/distributed/element_shape.hpp"
 
 namespace tunica::assembly {
 
 namespace {
 
 /// Nodes outside the wall have a row of their own.
-ScalarEntries entries(const mesh::DistributedMesh& mesh, double l) {
+ScalarEntries entries(const distributed::DistributedMesh& mesh, double l) {
   ScalarEntries result;
   std::vector<char> in_wall(static_cast<std::size_t>(mesh.owned_nodes), 0);
   for (const auto& region : mesh.regions) {
     if (region.kind != mesh::RegionKind::wall) continue;
     for (const auto& element : region.elements) {
-      const auto g = mesh::shape(mesh, element);
+      const auto g = distributed::shape(mesh, element);
       for (int a = 0; a < 4; ++a) {
         if (element[a] >= mesh.owned_nodes) continue;
         in_wall[element[a]] = 1;
@@ -30,7 +30,7 @@ ScalarEntries entries(const mesh::DistributedMesh& mesh, double l) {
 
 }  // namespace
 
-WallFilter::WallFilter(const mesh::DistributedMesh& mesh, double length, const std::string& name)
+WallFilter::WallFilter(const distributed::DistributedMesh& mesh, double length, const std::string& name)
     : system_(mesh, entries(mesh, length), name) {}
 
 }  // namespace tunica::assembly

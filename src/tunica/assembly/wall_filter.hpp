@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tunica/assembly/scalar_system.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::assembly {
 
@@ -15,7 +15,7 @@ namespace tunica::assembly {
 class WallFilter {
  public:
   /// `length`: l [m] > 0. `name` begins the messages of errors. Collective.
-  WallFilter(const mesh::DistributedMesh& mesh, double length, const std::string& name);
+  WallFilter(const distributed::DistributedMesh& mesh, double length, const std::string& name);
 
   /// w on all local nodes, 0 outside the wall. `load`: integral of the source times the shape function of each owned
   /// node; 0 outside the wall. Throws SolverError when the linear solver fails. Collective.

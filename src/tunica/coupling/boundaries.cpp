@@ -18,7 +18,7 @@ using assembly::NodeConstraint;
 
 namespace {
 
-Vec3<double> mean_normal(const mesh::DistributedMesh& mesh, const mesh::Face& face) {
+Vec3<double> mean_normal(const distributed::DistributedMesh& mesh, const distributed::Face& face) {
   double sum[3] = {};
   for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
     const auto& n = face.triangles[t];
@@ -50,7 +50,8 @@ struct Held {
 };
 
 // Ghosts on a face may lie outside every face triangle that this rank sees, so they ask their owners.
-std::vector<NodeConstraint> complete_on_ghosts(const mesh::DistributedMesh& mesh, const std::vector<Held>& held) {
+std::vector<NodeConstraint> complete_on_ghosts(const distributed::DistributedMesh& mesh,
+                                               const std::vector<Held>& held) {
   std::vector<double> values(10 * static_cast<std::size_t>(mesh.nodes()));
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     double* v = values.data() + 10 * static_cast<std::size_t>(i);
@@ -82,7 +83,7 @@ void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& mat
 // Collects what the conditions ask of nodes, face by face.
 struct Boundaries::Builder {
   Boundaries& b;
-  const mesh::DistributedMesh& mesh;
+  const distributed::DistributedMesh& mesh;
   std::vector<Held> held, mesh_held;
   std::vector<char> interface_node;
 
@@ -101,14 +102,14 @@ struct Boundaries::Builder {
   }
 
   template <class Visit>
-  void for_each_node(const mesh::Face& face, Visit visit) const {
+  void for_each_node(const distributed::Face& face, Visit visit) const {
     for (const auto& triangle : face.triangles)
       for (const auto node : triangle) visit(node);
   }
 
   // In FSI the rim of an opening belongs to the wall; nodes that no_slip holds stay at rest.
   template <class Visit>
-  void hold_inner(const mesh::Face& face, Visit visit_owned) {
+  void hold_inner(const distributed::Face& face, Visit visit_owned) {
     std::vector<char> done(mesh.nodes(), 0);
     for_each_node(face, [&](std::int32_t node) {
       if (interface_node[node] || done[node]) return;
@@ -117,13 +118,13 @@ struct Boundaries::Builder {
       if (node < mesh.owned_nodes) visit_owned(node);
     });
   }
-  void prescribe(const mesh::Face& face, const bc::Waveform& course,
+  void prescribe(const distributed::Face& face, const bc::Waveform& course,
                  const std::function<Vec3<double>(std::int32_t)>& velocity) {
     const std::size_t waveform = b.waveforms_.size();
     b.waveforms_.push_back(course);
     hold_inner(face, [&](std::int32_t node) { b.prescribed_.push_back({node, velocity(node), waveform}); });
   }
-  void prescribe(const mesh::Face& face, const VectorField& velocity) {
+  void prescribe(const distributed::Face& face, const VectorField& velocity) {
     const std::size_t field = b.velocity_fields_.size();
     b.velocity_fields_.push_back(velocity);
     hold_inner(face, [&](std::int32_t node) { b.field_nodes_.push_back({node, field}); });
@@ -196,7 +197,7 @@ struct Boundaries::Builder {
     b.loads_.push_back(load);
   }
 
-  double support_value(const bc::SupportValue& value, const mesh::Face& face,
+  double support_value(const bc::SupportValue& value, const distributed::Face& face,
                        const std::array<std::int32_t, 3>& triangle, double lowest) const {
     if (const auto* constant = std::get_if<double>(&value)) return *constant;
     const auto& array = std::get<bc::FaceArray>(value);
@@ -209,7 +210,7 @@ struct Boundaries::Builder {
                          "mend the array in the mesh file");
     return array.unit * (nodal[triangle[0]] + nodal[triangle[1]] + nodal[triangle[2]]) / 3.0;
   }
-  std::vector<wall::TissueSupport<double>> support_of(const mesh::Face& face, const bc::Support& c) const {
+  std::vector<wall::TissueSupport<double>> support_of(const distributed::Face& face, const bc::Support& c) const {
     std::vector<wall::TissueSupport<double>> list;
     for (const auto& t : face.triangles)
       list.push_back({support_value(c.stiffness, face, t, 0.0), support_value(c.damping, face, t, 0.0),
@@ -223,7 +224,7 @@ struct Boundaries::Builder {
   }
 };
 
-Boundaries::Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockPattern& pattern,
+Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly::BlockPattern& pattern,
                        const BoundaryInput& input)
     : mesh_(mesh), pattern_(pattern), fluid_(input.fluid) {
   Builder builder(*this);

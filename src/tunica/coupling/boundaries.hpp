@@ -11,8 +11,8 @@
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/bc/conditions.hpp"
 #include "tunica/coupling/element_loops.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/fluid/parameters.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
 #include "tunica/wall/surface.hpp"
 
 namespace tunica::coupling {
@@ -49,7 +49,8 @@ class Boundaries {
  public:
   /// Throws InputError for an unknown face or a table that cannot be read; whether every face has one fitting condition
   /// is for the caller to check (bc::check_boundary). Collective.
-  Boundaries(const mesh::DistributedMesh& mesh, const assembly::BlockPattern& pattern, const BoundaryInput& input);
+  Boundaries(const distributed::DistributedMesh& mesh, const assembly::BlockPattern& pattern,
+             const BoundaryInput& input);
 
   /// Free motions of nodes in the (v, p) system.
   const assembly::Constraints& constraints() const { return constraints_; }
@@ -110,7 +111,7 @@ class Boundaries {
                      const LoadCoefficients& coefficients, std::span<double> residual,
                      assembly::BlockMatrix* matrix) const;
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   const assembly::BlockPattern& pattern_;
   std::optional<fluid::Parameters> fluid_;
   assembly::Constraints constraints_;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "tunica/base/error.hpp"
-#include "tunica/mesh/element_shape.hpp"
+#include "tunica/distributed/element_shape.hpp"
 
 namespace tunica::coupling {
 
@@ -11,16 +11,17 @@ namespace {
 
 using wall::FibreFrame;
 
-FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region&, std::size_t, const wall::ConstantFrame& source) {
+FibreFrame frame_of(const distributed::DistributedMesh&, const distributed::Region&, std::size_t,
+                    const wall::ConstantFrame& source) {
   return source.frame();
 }
 
-FibreFrame frame_of(const mesh::DistributedMesh& mesh, const mesh::Region& region, std::size_t element,
+FibreFrame frame_of(const distributed::DistributedMesh& mesh, const distributed::Region& region, std::size_t element,
                     const wall::CylindricalFrame& source) {
-  return source.at(mesh::centroid(mesh, region.elements[element]));
+  return source.at(distributed::centroid(mesh, region.elements[element]));
 }
 
-FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region& region, std::size_t element,
+FibreFrame frame_of(const distributed::DistributedMesh&, const distributed::Region& region, std::size_t element,
                     const wall::MeshFrame& source) {
   const auto vector = [&](const std::string& name) {
     const mesh::ElementField& field = region.field(name);
@@ -37,7 +38,7 @@ FibreFrame frame_of(const mesh::DistributedMesh&, const mesh::Region& region, st
 
 }  // namespace
 
-std::vector<double> fibre_frames(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+std::vector<double> fibre_frames(const distributed::DistributedMesh& mesh, const distributed::Region& region,
                                  const wall::FrameSource& source) {
   std::vector<double> frames;
   frames.reserve(6 * region.elements.size());

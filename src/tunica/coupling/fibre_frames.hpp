@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/wall/fibre_frame.hpp"
 
 namespace tunica::coupling {
 
 /// e1 and e2 of each local element, [element][6]; e3 = e1 x e2. Frames that depend on the place are taken at the
 /// centroid. Throws InputError naming the element where there is no frame.
-std::vector<double> fibre_frames(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+std::vector<double> fibre_frames(const distributed::DistributedMesh& mesh, const distributed::Region& region,
                                  const wall::FrameSource& source);
 
 }  // namespace tunica::coupling

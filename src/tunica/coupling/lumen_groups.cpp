@@ -4,7 +4,7 @@
 
 namespace tunica::coupling {
 
-std::vector<LumenGroup> lumen_groups(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+std::vector<LumenGroup> lumen_groups(const distributed::DistributedMesh& mesh, const distributed::Region& region,
                                      std::span<const char> follows_wall, const assembly::BlockPattern& pattern,
                                      int width) {
   std::vector<std::int32_t> beside, inner;

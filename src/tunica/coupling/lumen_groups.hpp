@@ -18,7 +18,7 @@ struct LumenGroup {
 };
 
 /// Groups of a lumen region. `follows_wall`: 1 for nodes that move with the wall [local node].
-std::vector<LumenGroup> lumen_groups(const mesh::DistributedMesh& mesh, const mesh::Region& region,
+std::vector<LumenGroup> lumen_groups(const distributed::DistributedMesh& mesh, const distributed::Region& region,
                                      std::span<const char> follows_wall, const assembly::BlockPattern& pattern,
                                      int width);
 

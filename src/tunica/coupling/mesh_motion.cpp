@@ -20,13 +20,13 @@ using parallel::check;
 namespace {
 
 template <class Visit>
-void for_each_lumen_element(const mesh::DistributedMesh& mesh, Visit visit) {
+void for_each_lumen_element(const distributed::DistributedMesh& mesh, Visit visit) {
   for (const auto& region : mesh.regions)
     if (region.kind == mesh::RegionKind::lumen)
       for (std::size_t e = 0; e < region.elements.size(); ++e) visit(region, e);
 }
 
-void element_points(const mesh::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
+void element_points(const distributed::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
                     Vec3<double> (&x)[4]) {
   for (int a = 0; a < 4; ++a) x[a] = mesh.points[element[a]];
 }
@@ -37,7 +37,7 @@ Vec3<double> project(const NodeConstraint& constraint, const double* v) {
 
 }  // namespace
 
-MeshMotion::MeshMotion(const mesh::DistributedMesh& mesh, assembly::Isa isa, const ale::Parameters& parameters,
+MeshMotion::MeshMotion(const distributed::DistributedMesh& mesh, assembly::Isa isa, const ale::Parameters& parameters,
                        std::vector<NodeConstraint> constraints)
     : mesh_(mesh),
       isa_(isa),
@@ -50,7 +50,7 @@ MeshMotion::MeshMotion(const mesh::DistributedMesh& mesh, assembly::Isa isa, con
       residual_(at(mesh.owned_nodes)) {
   // Nodes outside the lumen take no part.
   std::vector<char> in_lumen(mesh.nodes(), 0);
-  for_each_lumen_element(mesh, [&](const mesh::Region& region, std::size_t e) {
+  for_each_lumen_element(mesh, [&](const distributed::Region& region, std::size_t e) {
     for (const auto node : region.elements[e]) in_lumen[node] = 1;
   });
   std::erase_if(constraints_, [&](const NodeConstraint& c) { return in_lumen[c.node] == 0; });
@@ -85,7 +85,7 @@ void MeshMotion::assemble(const ale::Parameters& parameters) {
       parallel::global_sum(mesh_.comm, volume) / static_cast<double>(parallel::global_sum(mesh_.comm, elements));
 
   std::vector<double> scalar(pattern_.blocks(), 0.0);
-  for_each_lumen_element(mesh_, [&](const mesh::Region& region, std::size_t e) {
+  for_each_lumen_element(mesh_, [&](const distributed::Region& region, std::size_t e) {
     const auto& element = region.elements[e];
     Vec3<double> x[4];
     element_points(mesh_, element, x);
@@ -218,9 +218,9 @@ int MeshMotion::solve(std::span<double> displacement, double tolerance) {
   return result.iterations;
 }
 
-MeshQuality mesh_quality(const mesh::DistributedMesh& mesh, std::span<const double> position) {
+MeshQuality mesh_quality(const distributed::DistributedMesh& mesh, std::span<const double> position) {
   MeshQuality worst{.smallest = INFINITY};
-  for_each_lumen_element(mesh, [&](const mesh::Region& region, std::size_t e) {
+  for_each_lumen_element(mesh, [&](const distributed::Region& region, std::size_t e) {
     Vec3<double> initial[4], current[4];
     element_points(mesh, region.elements[e], initial);
     for (int a = 0; a < 4; ++a)

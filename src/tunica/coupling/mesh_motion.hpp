@@ -8,7 +8,7 @@
 #include "tunica/ale/parameters.hpp"
 #include "tunica/assembly/block_matrix.hpp"
 #include "tunica/assembly/krylov.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/parallel/petsc.hpp"
 
 namespace tunica::coupling {
@@ -21,7 +21,7 @@ namespace tunica::coupling {
 class MeshMotion {
  public:
   /// `constraints`: lumen nodes that do not move freely; interface nodes have P = 0. Collective.
-  MeshMotion(const mesh::DistributedMesh& mesh, assembly::Isa isa, const ale::Parameters& parameters,
+  MeshMotion(const distributed::DistributedMesh& mesh, assembly::Isa isa, const ale::Parameters& parameters,
              std::vector<assembly::NodeConstraint> constraints);
 
   /// Moves the free nodes of `displacement` ([local node][4], ghosts up to date) so that the lumen is in equilibrium
@@ -41,7 +41,7 @@ class MeshMotion {
   void apply(const double* x, double* y);
   void precondition(const double* r, double* z);
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   assembly::Isa isa_;
   assembly::BlockPattern pattern_;
   std::vector<float> blocks_;  ///< [block][12], padded columns
@@ -62,6 +62,6 @@ struct MeshQuality {
   std::int64_t element = -1;  ///< position in MeshData::tetrahedra
   Vec3<double> place{};       ///< centroid in the initial mesh [m]
 };
-MeshQuality mesh_quality(const mesh::DistributedMesh& mesh, std::span<const double> position);
+MeshQuality mesh_quality(const distributed::DistributedMesh& mesh, std::span<const double> position);
 
 }  // namespace tunica::coupling

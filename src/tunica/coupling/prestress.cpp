@@ -25,7 +25,7 @@ constexpr double growth = 1.5;  // of the displacement that an update may cause
 constexpr double least_relaxation = 1.0 / 128;
 constexpr std::size_t memory = 5;  // points of the acceleration
 
-WallPrestress without_prestress(const mesh::DistributedMesh& mesh, Method method) {
+WallPrestress without_prestress(const distributed::DistributedMesh& mesh, Method method) {
   WallPrestress p{.kind = method == Method::stress ? wall::PrestressKind::stress : wall::PrestressKind::stretch};
   const auto n = static_cast<std::size_t>(wall::components(p.kind));
   for (const auto& region : mesh.regions) {
@@ -39,7 +39,7 @@ WallPrestress without_prestress(const mesh::DistributedMesh& mesh, Method method
 }
 
 /// dx/dX of the motion from the imaged shape, global axes.
-Mat3<double> motion_gradient(const mesh::DistributedMesh& mesh, const State& state,
+Mat3<double> motion_gradient(const distributed::DistributedMesh& mesh, const State& state,
                              const std::array<std::int32_t, 4>& nodes) {
   wall::ElementState<double> e;
   Vec3<double> X[4];
@@ -73,7 +73,7 @@ class FixedPoint {
   PrestressResult run();
 
  private:
-  bool excluded(const mesh::Region& region) const {
+  bool excluded(const distributed::Region& region) const {
     return std::find(settings_.exclude.begin(), settings_.exclude.end(), region.name) != settings_.exclude.end();
   }
   void find_prestressed_nodes();
@@ -91,7 +91,7 @@ class FixedPoint {
 
   Problem& problem_;
   const PrestressSettings& settings_;
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   const Follow& follow_;
   State start_;                    ///< undeformed
   std::vector<char> prestressed_;  ///< [owned node]

@@ -35,7 +35,7 @@ assembly::KrylovSettings krylov_settings(const LinearSettings& linear) {
   return {.tolerance = linear.tolerance, .max_iterations = linear.max_iterations, .restart = linear.restart};
 }
 
-bool has_region(const mesh::DistributedMesh& mesh, mesh::RegionKind kind) {
+bool has_region(const distributed::DistributedMesh& mesh, mesh::RegionKind kind) {
   return std::any_of(mesh.regions.begin(), mesh.regions.end(), [&](const auto& r) { return r.kind == kind; });
 }
 
@@ -47,7 +47,7 @@ int StepReport::linear_iterations() const {
   return sum;
 }
 
-Problem::Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input)
+Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& input)
     : mesh_(mesh),
       input_(input),
       isa_(assembly::choose_isa()),

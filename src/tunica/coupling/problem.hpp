@@ -58,7 +58,7 @@ struct StepReport {
 class Problem {
  public:
   /// Throws InputError when mesh, physics and conditions do not fit. Collective.
-  Problem(const mesh::DistributedMesh& mesh, const ProblemInput& input);
+  Problem(const distributed::DistributedMesh& mesh, const ProblemInput& input);
 
   /// At rest, undeformed.
   State initial_state() const;
@@ -96,7 +96,7 @@ class Problem {
   const Boundaries& boundaries() const { return boundaries_; }
   /// Only with a wall.
   const WallModel& wall_model() const { return wall_.value(); }
-  const mesh::DistributedMesh& mesh() const { return mesh_; }
+  const distributed::DistributedMesh& mesh() const { return mesh_; }
   const ProblemInput& input() const { return input_; }
   bool moving() const { return mesh_motion_.has_value() || input_.mesh_displacement; }
 
@@ -133,7 +133,7 @@ class Problem {
   std::string mesh_failure() const;
   std::vector<double> negligible_forces() const;
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   ProblemInput input_;
   assembly::Isa isa_;
   assembly::BlockPattern pattern_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tunica/assembly/wall_filter.hpp"
-#include "tunica/mesh/element_shape.hpp"
+#include "tunica/distributed/element_shape.hpp"
 
 namespace tunica::coupling {
 
@@ -13,13 +13,13 @@ namespace {
 constexpr double negligible = 1e-3;
 
 /// Integral of the indicator of the regions of one material times each shape function, of owned nodes.
-std::vector<double> indicator_load(const mesh::DistributedMesh& mesh, const std::vector<int>& material_of_region,
+std::vector<double> indicator_load(const distributed::DistributedMesh& mesh, const std::vector<int>& material_of_region,
                                    int material) {
   std::vector<double> load(static_cast<std::size_t>(mesh.owned_nodes), 0.0);
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     if (material_of_region[r] != material) continue;
     for (const auto& element : mesh.regions[r].elements) {
-      const double share = 0.25 * mesh::shape(mesh, element).volume;
+      const double share = 0.25 * distributed::shape(mesh, element).volume;
       for (const auto node : element)
         if (node < mesh.owned_nodes) load[node] += share;
     }
@@ -39,7 +39,7 @@ void tidy(double* weights, int materials) {
 
 }  // namespace
 
-std::vector<std::vector<double>> blend_regions(const mesh::DistributedMesh& mesh,
+std::vector<std::vector<double>> blend_regions(const distributed::DistributedMesh& mesh,
                                                const std::vector<int>& material_of_region, int materials,
                                                double length) {
   const auto count = static_cast<std::size_t>(materials);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::coupling {
 
@@ -17,7 +17,7 @@ namespace tunica::coupling {
 /// `length` and no sum of weights changes. Elements take the mean of their nodes; weights below 1e-3 are dropped.
 /// Regions that share nodes blend; a gap does not. Length 0 leaves the materials as they are. Throws SolverError when
 /// the linear solver fails. Collective.
-std::vector<std::vector<double>> blend_regions(const mesh::DistributedMesh& mesh,
+std::vector<std::vector<double>> blend_regions(const distributed::DistributedMesh& mesh,
                                                const std::vector<int>& material_of_region, int materials,
                                                double length);
 

@@ -5,8 +5,8 @@
 
 namespace tunica::coupling {
 
-wall::ElementState<double> wall_element(const mesh::DistributedMesh& mesh, const WallModel& model, const State& state,
-                                        std::size_t region, std::int32_t element) {
+wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
+                                        const State& state, std::size_t region, std::int32_t element) {
   const auto& nodes = mesh.regions[region].elements[element];
   const Vec3<double> X[4] = {mesh.points[nodes[0]], mesh.points[nodes[1]], mesh.points[nodes[2]],
                              mesh.points[nodes[3]]};

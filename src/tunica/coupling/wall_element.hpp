@@ -7,8 +7,8 @@
 namespace tunica::coupling {
 
 /// The element with its reference in its fibre frame, displacement, acceleration and pressure.
-wall::ElementState<double> wall_element(const mesh::DistributedMesh& mesh, const WallModel& model, const State& state,
-                                        std::size_t region, std::int32_t element);
+wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
+                                        const State& state, std::size_t region, std::int32_t element);
 
 /// Its Cauchy stress with the prestress in global axes [Pa], Voigt 11 22 33 12 23 13.
 wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element,

@@ -12,7 +12,7 @@ namespace tunica::coupling {
 namespace {
 
 /// Index of the material of each region of the mesh; -1 in the lumen.
-std::vector<int> material_of_regions(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters) {
+std::vector<int> material_of_regions(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters) {
   std::vector<std::string> known;
   std::string names;
   std::vector<int> material;
@@ -34,7 +34,7 @@ std::vector<int> material_of_regions(const mesh::DistributedMesh& mesh, const wa
 }
 
 /// The prestress that came with the elements of the mesh.
-WallPrestress prestress_of_mesh(const mesh::DistributedMesh& mesh, wall::PrestressKind kind) {
+WallPrestress prestress_of_mesh(const distributed::DistributedMesh& mesh, wall::PrestressKind kind) {
   WallPrestress prestress{.kind = kind};
   for (const auto& region : mesh.regions) {
     auto& values = prestress.values.emplace_back();
@@ -44,7 +44,7 @@ WallPrestress prestress_of_mesh(const mesh::DistributedMesh& mesh, wall::Prestre
 }
 
 /// Its kind, by the number of components; none where the mesh has no such array.
-wall::PrestressKind kind_in_mesh(const mesh::DistributedMesh& mesh) {
+wall::PrestressKind kind_in_mesh(const distributed::DistributedMesh& mesh) {
   for (const auto& region : mesh.regions)
     for (const auto& field : region.fields)
       if (field.name == wall::prestress_array)
@@ -54,7 +54,7 @@ wall::PrestressKind kind_in_mesh(const mesh::DistributedMesh& mesh) {
 
 }  // namespace
 
-WallModel::WallModel(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters)
+WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters)
     : mixed_(parameters.element == wall::Element::mixed),
       volumetric_energy_(parameters.volumetric_energy),
       stabilisation_(parameters.stabilisation) {
@@ -218,7 +218,7 @@ WallGroupView WallModel::Group::view() const {
 
 WallElementSettings WallModel::element_settings() const { return {mixed_, volumetric_energy_, stabilisation_}; }
 
-std::vector<WallModel::Group> WallModel::groups(const mesh::DistributedMesh& mesh, std::size_t region,
+std::vector<WallModel::Group> WallModel::groups(const distributed::DistributedMesh& mesh, std::size_t region,
                                                 const assembly::BlockPattern& pattern, int width) const {
   const RegionModel& model = regions_[region];
   std::vector<Group> result;

@@ -23,7 +23,7 @@ class WallModel {
   /// Prestress is taken from the mesh where it has the array (wall::prestress_array). Throws InputError when a region
   /// of the parameters is not in the mesh, a frame cannot be found, or the rule of fibre directions cannot keep its
   /// tolerance. Collective.
-  WallModel(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters);
+  WallModel(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters);
 
   bool mixed() const { return mixed_; }
 
@@ -69,7 +69,7 @@ class WallModel {
 
     WallGroupView view() const;
   };
-  std::vector<Group> groups(const mesh::DistributedMesh& mesh, std::size_t region,
+  std::vector<Group> groups(const distributed::DistributedMesh& mesh, std::size_t region,
                             const assembly::BlockPattern& pattern, int width) const;
   WallElementSettings element_settings() const;
 

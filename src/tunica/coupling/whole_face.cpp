@@ -11,7 +11,7 @@ struct Corner {
   double x[3];
 };
 
-std::vector<Corner> all_corners(const mesh::DistributedMesh& mesh, const mesh::Face& face) {
+std::vector<Corner> all_corners(const distributed::DistributedMesh& mesh, const distributed::Face& face) {
   std::vector<Corner> mine;
   for (std::int32_t t = 0; t < face.owned_triangles; ++t)
     for (const auto node : face.triangles[t]) {
@@ -36,7 +36,7 @@ std::int32_t WholeFace::find(std::int64_t global_id) const {
   return it == global_ids.end() || *it != global_id ? -1 : static_cast<std::int32_t>(it - global_ids.begin());
 }
 
-WholeFace gather_face(const mesh::DistributedMesh& mesh, const mesh::Face& face) {
+WholeFace gather_face(const distributed::DistributedMesh& mesh, const distributed::Face& face) {
   const auto corners = all_corners(mesh, face);
   WholeFace whole;
   whole.name = face.name;

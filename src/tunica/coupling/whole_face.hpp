@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tunica/bc/face_shape.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::coupling {
 
@@ -22,6 +22,6 @@ struct WholeFace {
 };
 
 /// Collective.
-WholeFace gather_face(const mesh::DistributedMesh& mesh, const mesh::Face& face);
+WholeFace gather_face(const distributed::DistributedMesh& mesh, const distributed::Face& face);
 
 }  // namespace tunica::coupling

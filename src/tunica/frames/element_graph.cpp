@@ -36,7 +36,7 @@ struct Message {
 /// All sides whose lowest node this rank owns: it sees everything that touches them.
 class Sides {
  public:
-  explicit Sides(const mesh::DistributedMesh& mesh) : mesh_(mesh) {
+  explicit Sides(const distributed::DistributedMesh& mesh) : mesh_(mesh) {
     first_.resize(static_cast<std::size_t>(parallel::size(mesh.comm)));
     MPI_Allgather(&mesh.first_global, 1, MPI_INT64_T, first_.data(), 1, MPI_INT64_T, mesh.comm);
     for (const auto& region : mesh.regions)
@@ -81,7 +81,7 @@ class Sides {
       sides_.push_back(side);
   }
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   std::vector<std::int64_t> first_;  ///< first global node of each rank
   std::vector<Side> sides_;
 };
@@ -105,7 +105,7 @@ class LocalNumbers {
 
 }  // namespace
 
-ElementGraph::ElementGraph(const mesh::DistributedMesh& mesh) : mesh_(mesh) {
+ElementGraph::ElementGraph(const distributed::DistributedMesh& mesh) : mesh_(mesh) {
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& region = mesh.regions[r];
     if (region.kind != mesh::RegionKind::wall) continue;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/parallel/halo.hpp"
 
 namespace tunica::frames {
@@ -18,11 +18,11 @@ namespace tunica::frames {
 class ElementGraph {
  public:
   /// `mesh` must outlive the graph. Collective.
-  explicit ElementGraph(const mesh::DistributedMesh& mesh);
+  explicit ElementGraph(const distributed::DistributedMesh& mesh);
 
   std::int32_t owned() const { return static_cast<std::int32_t>(nodes_.size()); }
   std::int32_t size() const { return size_; }
-  const mesh::DistributedMesh& mesh() const { return mesh_; }
+  const distributed::DistributedMesh& mesh() const { return mesh_; }
   /// Of an owned element: local nodes, region, position in MeshData::tetrahedra.
   const std::array<std::int32_t, 4>& nodes(std::int32_t e) const { return nodes_[e]; }
   std::int32_t region(std::int32_t e) const { return region_[e]; }
@@ -47,7 +47,7 @@ class ElementGraph {
   /// Makes the halo; `wanted`: numbers in MeshData of ghosts by owner. Returns the numbers of the ghosts here.
   std::map<std::int64_t, std::int32_t> number_ghosts(std::vector<std::vector<std::int64_t>> wanted);
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   std::int32_t size_ = 0;
   std::vector<std::array<std::int32_t, 4>> nodes_;
   std::vector<std::int32_t> region_;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "tunica/distributed/element_shape.hpp"
 #include "tunica/frames/averaging.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/element_shape.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::frames {
@@ -29,7 +29,7 @@ Vec3<double> across(const Vec3<double>& v, const Vec3<double>& normal) { return 
 /// Outlet faces of the domain, and which of them meet, as cap and ring of one opening do: those are one group.
 class Outlets {
  public:
-  Outlets(const mesh::DistributedMesh& mesh, const std::vector<std::string>& names, Domain domain)
+  Outlets(const distributed::DistributedMesh& mesh, const std::vector<std::string>& names, Domain domain)
       : mesh_(mesh), domain_(domain) {
     for (const auto& name : names)
       if (const auto& face = mesh.face(name); includes(domain, mesh.regions[face.region].kind)) faces_.push_back(&face);
@@ -69,20 +69,20 @@ class Outlets {
         if (const auto row = carrier(mesh_, domain_, node); row < mesh_.owned_nodes) visit(row);
   }
 
-  double area(const mesh::Face& face) const {
+  double area(const distributed::Face& face) const {
     double sum = 0;
     for (std::int32_t t = 0; t < face.owned_triangles; ++t)
       sum += norm(mesh::area_vector(mesh_.points, face.triangles[t]));
     return sum;
   }
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   Domain domain_;
-  std::vector<const mesh::Face*> faces_;
+  std::vector<const distributed::Face*> faces_;
 };
 
 /// Conditions of the longitudinal potential, eq. (6.4). Collective.
-LaplaceConditions conditions_of(const mesh::DistributedMesh& mesh, const FrameFaces& faces, Domain domain) {
+LaplaceConditions conditions_of(const distributed::DistributedMesh& mesh, const FrameFaces& faces, Domain domain) {
   const auto outlets = parallel::agree(mesh.comm, [&] {
     for (const auto& name : faces.inlet) mesh.face(name);
     return Outlets(mesh, faces.outlets, domain);
@@ -99,7 +99,7 @@ std::vector<double> longitudinal_gradient(const ElementGraph& graph, const Lapla
   const auto& phi = solution.phi;
   std::vector<double> gradient;
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto g = mesh::shape(graph.mesh(), graph.nodes(e));
+    const auto g = distributed::shape(graph.mesh(), graph.nodes(e));
     Vec3<double> v{{0, 0, 0}};
     for (int a = 0; a < 4; ++a) v = v + phi[graph.nodes(e)[a]] * g.dN[a];
     gradient.insert(gradient.end(), v.x, v.x + 3);
@@ -111,7 +111,7 @@ std::vector<double> longitudinal_gradient(const ElementGraph& graph, const Lapla
 double mean_length(const ElementGraph& graph, const std::vector<double>& gradient) {
   double sums[2] = {0, 0};
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const double volume = mesh::shape(graph.mesh(), graph.nodes(e)).volume;
+    const double volume = distributed::shape(graph.mesh(), graph.nodes(e)).volume;
     sums[0] += volume * norm(vector(gradient, e));
     sums[1] += volume;
   }

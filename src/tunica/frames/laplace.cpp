@@ -6,7 +6,7 @@
 
 #include "tunica/assembly/scalar_system.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/mesh/element_shape.hpp"
+#include "tunica/distributed/element_shape.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::frames {
@@ -16,7 +16,7 @@ namespace {
 /// Assembles the rows of owned nodes. A group of nodes is one unknown, that of its node of lowest number.
 class Assembly {
  public:
-  Assembly(const mesh::DistributedMesh& mesh, Domain domain, const LaplaceConditions& conditions)
+  Assembly(const distributed::DistributedMesh& mesh, Domain domain, const LaplaceConditions& conditions)
       : mesh_(mesh),
         domain_(domain),
         value_(conditions.value),
@@ -62,7 +62,7 @@ class Assembly {
   }
 
   void add(const std::array<std::int32_t, 4>& element) {
-    const auto shape = mesh::shape(mesh_, element);
+    const auto shape = distributed::shape(mesh_, element);
     for (int a = 0; a < 4; ++a) {
       const auto row = carrier(mesh_, domain_, element[a]);
       if (row >= mesh_.owned_nodes) continue;
@@ -91,7 +91,7 @@ class Assembly {
     }
   }
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   Domain domain_;
   std::vector<double> value_, group_, inflow_;
   std::vector<std::int64_t> leader_;  ///< global node of each group
@@ -106,7 +106,7 @@ class Assembly {
 
 }  // namespace
 
-LaplaceConditions::LaplaceConditions(const mesh::DistributedMesh& mesh)
+LaplaceConditions::LaplaceConditions(const distributed::DistributedMesh& mesh)
     : value(static_cast<std::size_t>(mesh.nodes()), std::numeric_limits<double>::quiet_NaN()),
       group(static_cast<std::size_t>(mesh.nodes()), -1.0) {}
 
@@ -114,8 +114,8 @@ bool includes(Domain domain, mesh::RegionKind kind) {
   return domain == Domain::lumen_and_wall || (domain == Domain::wall) == (kind == mesh::RegionKind::wall);
 }
 
-LaplaceSolution solve_laplace(const mesh::DistributedMesh& mesh, Domain domain, const LaplaceConditions& conditions,
-                              const std::string& name) {
+LaplaceSolution solve_laplace(const distributed::DistributedMesh& mesh, Domain domain,
+                              const LaplaceConditions& conditions, const std::string& name) {
   Assembly assembled(mesh, domain, conditions);
   if (!assembled.has_values()) throw SolverError(name + ": no value is prescribed on the domain.");
   assembly::ScalarSystem system(mesh, assembled.entries, name);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::frames {
 
@@ -17,7 +17,7 @@ struct LaplaceConditions {
   std::vector<double> group;  ///< number of the group of nodes that have one unknown phi in common, -1: none
   std::vector<double> flux;   ///< inflow into each group [m^2 times the unit of the gradient]; the same on all ranks
 
-  explicit LaplaceConditions(const mesh::DistributedMesh& mesh);
+  explicit LaplaceConditions(const distributed::DistributedMesh& mesh);
 };
 
 struct LaplaceSolution {
@@ -28,11 +28,11 @@ struct LaplaceSolution {
 /// Linear elements. A prescribed value goes before a group. In the union, twins of the interface are one unknown; there
 /// and in the conditions the value at a host counts for both. Throws SolverError when nothing is prescribed or the
 /// linear solver fails; `name` begins the message. Collective.
-LaplaceSolution solve_laplace(const mesh::DistributedMesh& mesh, Domain domain, const LaplaceConditions& conditions,
-                              const std::string& name);
+LaplaceSolution solve_laplace(const distributed::DistributedMesh& mesh, Domain domain,
+                              const LaplaceConditions& conditions, const std::string& name);
 
 /// Node that carries phi of `node`.
-inline std::int32_t carrier(const mesh::DistributedMesh& mesh, Domain domain, std::int32_t node) {
+inline std::int32_t carrier(const distributed::DistributedMesh& mesh, Domain domain, std::int32_t node) {
   return domain == Domain::lumen_and_wall ? mesh.host[node] : node;
 }
 

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "tunica/base/error.hpp"
-#include "tunica/mesh/element_shape.hpp"
+#include "tunica/distributed/element_shape.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::frames {
@@ -18,7 +18,7 @@ namespace {
 enum Touch : unsigned char { true_wall = 1, false_wall = 2, other_wall = 4 };
 
 /// What each region of the mesh is.
-std::vector<Touch> kinds_of_regions(const mesh::DistributedMesh& mesh, const LumenWalls& walls) {
+std::vector<Touch> kinds_of_regions(const distributed::DistributedMesh& mesh, const LumenWalls& walls) {
   std::vector<Touch> kinds(mesh.regions.size(), other_wall);
   const auto mark = [&](const std::vector<std::string>& names, Touch kind) {
     for (const auto& name : names) {
@@ -37,7 +37,7 @@ std::vector<Touch> kinds_of_regions(const mesh::DistributedMesh& mesh, const Lum
 }
 
 /// Values of the interface nodes that touch one kind of wall only.
-LaplaceConditions conditions_of(const mesh::DistributedMesh& mesh, const std::vector<Touch>& kinds) {
+LaplaceConditions conditions_of(const distributed::DistributedMesh& mesh, const std::vector<Touch>& kinds) {
   std::vector<unsigned char> touched(static_cast<std::size_t>(mesh.nodes()), 0);
   for (std::size_t r = 0; r < mesh.regions.size(); ++r)
     if (mesh.regions[r].kind == mesh::RegionKind::wall)
@@ -60,12 +60,12 @@ LaplaceConditions conditions_of(const mesh::DistributedMesh& mesh, const std::ve
 
 }  // namespace
 
-LaplaceSolution lumen_sides(const mesh::DistributedMesh& mesh, const LumenWalls& walls) {
+LaplaceSolution lumen_sides(const distributed::DistributedMesh& mesh, const LumenWalls& walls) {
   const auto kinds = parallel::agree(mesh.comm, [&] { return kinds_of_regions(mesh, walls); });
   return solve_laplace(mesh, Domain::lumen, conditions_of(mesh, kinds), "Search for the tears");
 }
 
-std::vector<Vec3<double>> tear_points(const mesh::DistributedMesh& mesh, const LumenWalls& walls) {
+std::vector<Vec3<double>> tear_points(const distributed::DistributedMesh& mesh, const LumenWalls& walls) {
   const auto solution = lumen_sides(mesh, walls);
   std::vector<Vec3<double>> mine;
   for (const auto& region : mesh.regions)
@@ -74,7 +74,7 @@ std::vector<Vec3<double>> tear_points(const mesh::DistributedMesh& mesh, const L
         const auto& element = region.elements[e];
         const auto [low, high] = std::minmax(
             {solution.phi[element[0]], solution.phi[element[1]], solution.phi[element[2]], solution.phi[element[3]]});
-        if (low < 0 && high > 0) mine.push_back(mesh::centroid(mesh, element));
+        if (low < 0 && high > 0) mine.push_back(distributed::centroid(mesh, element));
       }
   std::vector<int> counts(static_cast<std::size_t>(parallel::size(mesh.comm))), begins(counts.size(), 0);
   const int count = static_cast<int>(3 * mine.size());
@@ -96,7 +96,7 @@ std::vector<double> distances(const ElementGraph& graph, const std::vector<Vec3<
   const bg::index::rtree<Point, bg::index::quadratic<16>> tree(targets);
   std::vector<double> result;
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto c = mesh::centroid(graph.mesh(), graph.nodes(e));
+    const auto c = distributed::centroid(graph.mesh(), graph.nodes(e));
     const Point from(c[0], c[1], c[2]);
     Point nearest;
     tree.query(bg::index::nearest(from, 1), &nearest);

@@ -23,7 +23,7 @@ Vec3<double> vector(const std::vector<double>& values, std::int32_t e) {
 }
 
 /// The given faces as indices into mesh.faces. Throws InputError for a name that is none.
-std::vector<char> chosen_faces(const mesh::DistributedMesh& mesh, const std::vector<std::string>& names) {
+std::vector<char> chosen_faces(const distributed::DistributedMesh& mesh, const std::vector<std::string>& names) {
   std::vector<char> chosen(mesh.faces.size(), 0);
   for (const auto& name : names) chosen[&mesh.face(name) - mesh.faces.data()] = 1;
   return chosen;
@@ -93,7 +93,8 @@ WallNormals normals_by(const ElementGraph& graph, const std::vector<char>& inner
 }
 
 /// Integrals of one component of the dyads of the inner faces times each shape function, of owned nodes.
-std::array<std::vector<double>, 6> dyad_loads(const mesh::DistributedMesh& mesh, const std::vector<char>& inner) {
+std::array<std::vector<double>, 6> dyad_loads(const distributed::DistributedMesh& mesh,
+                                              const std::vector<char>& inner) {
   std::array<std::vector<double>, 6> loads;
   loads.fill(std::vector<double>(static_cast<std::size_t>(mesh.owned_nodes), 0.0));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {

@@ -113,9 +113,9 @@ void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std:
     for (auto& triangle : face.triangles) {
       const auto i = boundary.find(triangle);
       if (i < 0) {
-        inside.push_back(centroid(data.points, triangle));
+        inside.push_back(mesh::centroid(data.points, triangle));
       } else if (owner[i] >= 0) {
-        twice.push_back(centroid(data.points, triangle));
+        twice.push_back(mesh::centroid(data.points, triangle));
         other = data.faces[owner[i]].name;
       } else {
         owner[i] = f;
@@ -135,7 +135,7 @@ void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std:
   }
   std::vector<Vec3<double>> unnamed;
   for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] < 0) unnamed.push_back(centroid(data.points, boundary.triangles()[i].nodes));
+    if (owner[i] < 0) unnamed.push_back(mesh::centroid(data.points, boundary.triangles()[i].nodes));
   if (!unnamed.empty())
     problems.push_back({where,
                         fmt::format("{} of {} boundary triangles lie in no named face: {}", unnamed.size(),

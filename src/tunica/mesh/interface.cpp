@@ -191,8 +191,8 @@ void check_triangles(const MeshData& data, const std::string& where, std::vector
   }
   std::vector<Problem> problems;
   std::vector<Vec3<double>> only_lumen, only_wall;
-  for (const auto& t : missing_in(lumen, wall)) only_lumen.push_back(centroid(data.points, t));
-  for (const auto& t : missing_in(wall, lumen)) only_wall.push_back(centroid(data.points, t));
+  for (const auto& t : missing_in(lumen, wall)) only_lumen.push_back(mesh::centroid(data.points, t));
+  for (const auto& t : missing_in(wall, lumen)) only_wall.push_back(mesh::centroid(data.points, t));
   const std::string remedy = "mesh lumen and wall with the same triangles on their common surface";
   report_places(problems, where, "lumen triangles are not wall triangles", only_lumen, lumen.size(), remedy);
   report_places(problems, where, "wall triangles are not lumen triangles", only_wall, wall.size(), remedy);

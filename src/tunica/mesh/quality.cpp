@@ -23,7 +23,7 @@ std::array<Vec3<double>, 4> corners(const MeshData& data, std::int64_t element) 
 }
 
 std::string place(const MeshData& data, std::int64_t element) {
-  const Vec3<double> c[1] = {centroid(data.points, data.tetrahedra[element])};
+  const Vec3<double> c[1] = {mesh::centroid(data.points, data.tetrahedra[element])};
   return list_places(c);
 }
 
@@ -99,7 +99,7 @@ std::string orient_elements(MeshData& data, const std::string& where) {
       if (quality(corners(data, e)).volume > 0) bad.push_back(e);
   }
   std::vector<Vec3<double>> places;
-  for (const auto e : bad) places.push_back(centroid(data.points, data.tetrahedra[e]));
+  for (const auto e : bad) places.push_back(mesh::centroid(data.points, data.tetrahedra[e]));
   throw InputError(where,
                    fmt::format("{} of {} elements are inverted or flat ({} of them flat): element {} at {}", bad.size(),
                                n, zero.size(), bad[0] + 1, list_places(places)),
@@ -122,7 +122,7 @@ QualityReport check_quality(const MeshData& data, std::int32_t region, const Qua
   std::vector<std::pair<double, std::int64_t>> slivers;
   for (auto e = first; e < end; ++e) {
     const auto q = quality(corners(data, e));
-    if (!(q.scaled_jacobian > flat)) inverted.push_back(centroid(data.points, data.tetrahedra[e]));
+    if (!(q.scaled_jacobian > flat)) inverted.push_back(mesh::centroid(data.points, data.tetrahedra[e]));
     if (q.smallest_dihedral < limits.sliver_dihedral) slivers.emplace_back(q.smallest_dihedral, e);
     report.smallest_volume = std::min(report.smallest_volume, q.volume);
     report.smallest_scaled_jacobian = std::min(report.smallest_scaled_jacobian, q.scaled_jacobian);

@@ -147,14 +147,14 @@ void points(const std::vector<Candidate>& list, assembly::Isa isa) {
 
 void assembly_of_the_wall(const std::vector<Candidate>& list) {
   const assembly::Isa isa = assembly::choose_isa();
-  const auto mesh = mesh::distribute(mesh::tube({.radius = 0.01,
-                                                 .length = 0.1,
-                                                 .wall_thickness = 0.002,
-                                                 .cells_around = 64,
-                                                 .cells_radial = 8,
-                                                 .cells_along = 64,
-                                                 .cells_through_wall = 3}),
-                                     MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(mesh::tube({.radius = 0.01,
+                                                        .length = 0.1,
+                                                        .wall_thickness = 0.002,
+                                                        .cells_around = 64,
+                                                        .cells_radial = 8,
+                                                        .cells_along = 64,
+                                                        .cells_through_wall = 3}),
+                                            MPI_COMM_WORLD);
   const auto pattern = assembly::make_pattern(mesh);
   assembly::BlockMatrix block_matrix(pattern);
   const std::size_t n = 4 * static_cast<std::size_t>(mesh.nodes());

@@ -82,7 +82,7 @@ TEST(Case, StaticWallUnderPressure) {
       "  wall_outer: free\n"
       "  wall_inlet: {fixed: {directions: [z]}}\n  wall_outlet: {fixed: {directions: [z]}}\n"
       "  symmetry_x: {fixed: {directions: [x]}}\n  symmetry_y: {fixed: {directions: [y]}}\n";
-  stages::ReadCase c{stages::parse_case(text, folder.path() / "case.yaml"), text, {}, {}, {}};
+  stages::ReadCase c{case_file::parse_case(text, folder.path() / "case.yaml"), text, {}, {}, {}};
   c.mesh.data = mesh::thick_cylinder(
       {.inner = 0.01, .outer = 0.012, .length = 0.002, .cells_radial = 3, .cells_around = 32, .cells_along = 1},
       mesh::Sector::quarter);

@@ -67,7 +67,7 @@ fs::path solve_wall(const SharedFolder& folder, const std::string& analysis, con
                            "  wall_inlet: {fixed: {directions: [z]}}\n  wall_outlet: {fixed: {directions: [z]}}\n"
                            "  symmetry_x: {fixed: {directions: [x]}}\n  symmetry_y: {fixed: {directions: [y]}}\n" +
                            more;
-  stages::ReadCase c{stages::parse_case(text, folder.path() / "case.yaml"), text, {}, {}, {}};
+  stages::ReadCase c{case_file::parse_case(text, folder.path() / "case.yaml"), text, {}, {}, {}};
   c.mesh.data = mesh::thick_cylinder(
       {.inner = 0.01, .outer = 0.012, .length = 0.001, .cells_radial = 2, .cells_around = 16, .cells_along = 1},
       mesh::Sector::quarter);

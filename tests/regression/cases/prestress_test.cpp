@@ -7,7 +7,7 @@
 #include "small_cases.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
-#include "tunica/mesh/simvascular.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
 
 namespace tunica::test {
 namespace {
@@ -163,7 +163,7 @@ TEST(Prestress, KeepsTheFlowWhenTheFixedPointFails) {
 TEST(Prestress, OfAWallAloneTakesItsOwnLoads) {
   const SharedFolder folder;
   if (parallel::rank(MPI_COMM_WORLD) == 0)
-    mesh::write_simvascular(
+    mesh_io::write_simvascular(
         folder.path() / "mesh",
         mesh::thick_cylinder(
             {.inner = 0.01, .outer = 0.012, .length = 0.002, .cells_radial = 2, .cells_around = 32, .cells_along = 1},

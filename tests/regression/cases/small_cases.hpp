@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "shared_folder.hpp"
-#include "tunica/stages/run.hpp"
+#include "tunica/stages/run/run.hpp"
 
 namespace tunica::test {
 

@@ -15,22 +15,22 @@ using test::at;
 using test::block_entry;
 using test::noise;
 
-mesh::DistributedMesh small_mesh() {
-  return mesh::distribute(mesh::tube({.radius = 1,
-                                      .length = 2,
-                                      .wall_thickness = 0.3,
-                                      .cells_around = 8,
-                                      .cells_radial = 1,
-                                      .cells_along = 3,
-                                      .cells_through_wall = 1}),
-                          MPI_COMM_WORLD);
+distributed::DistributedMesh small_mesh() {
+  return distributed::distribute(mesh::tube({.radius = 1,
+                                             .length = 2,
+                                             .wall_thickness = 0.3,
+                                             .cells_around = 8,
+                                             .cells_radial = 1,
+                                             .cells_along = 3,
+                                             .cells_through_wall = 1}),
+                                 MPI_COMM_WORLD);
 }
 
-double entry(const mesh::DistributedMesh& mesh, std::int32_t row, std::int32_t column, int i, int j) {
+double entry(const distributed::DistributedMesh& mesh, std::int32_t row, std::int32_t column, int i, int j) {
   return block_entry(mesh.original_ids[row], mesh.original_ids[column], i, j);
 }
 
-BlockMatrix filled(const mesh::DistributedMesh& mesh, const BlockPattern& pattern) {
+BlockMatrix filled(const distributed::DistributedMesh& mesh, const BlockPattern& pattern) {
   BlockMatrix matrix(pattern);
   for (std::int32_t row = 0; row < pattern.rows; ++row)
     for (auto b = pattern.row_begin[row]; b < pattern.row_begin[row + 1]; ++b)
@@ -41,7 +41,7 @@ BlockMatrix filled(const mesh::DistributedMesh& mesh, const BlockPattern& patter
 }
 
 // A vector whose ghosts came through the halo.
-std::vector<double> vector_with_ghosts(const mesh::DistributedMesh& mesh) {
+std::vector<double> vector_with_ghosts(const distributed::DistributedMesh& mesh) {
   std::vector<double> x(at(mesh.nodes()), 0.0);
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     for (int c = 0; c < 4; ++c) x[at(i) + c] = noise(mesh.original_ids[i], c);
@@ -101,7 +101,7 @@ TEST(BlockMatrix, ProductOfThreeByThreeBlocksLeavesTheFourthEntryZero) {
 }
 
 // Free, sliding on an oblique plane, sliding along an oblique line, fixed, and with or without pressure.
-NodeConstraint constraint_of(const mesh::DistributedMesh& mesh, std::int32_t node) {
+NodeConstraint constraint_of(const distributed::DistributedMesh& mesh, std::int32_t node) {
   const auto id = mesh.original_ids[node];
   NodeConstraint c{node, identity<double>(), id % 5 == 0};
   if (id % 4 == 0) return c;
@@ -122,14 +122,14 @@ struct Projector4 {
   }
 };
 
-std::vector<NodeConstraint> constraints_of(const mesh::DistributedMesh& mesh) {
+std::vector<NodeConstraint> constraints_of(const distributed::DistributedMesh& mesh) {
   std::vector<NodeConstraint> list;
   for (std::int32_t i = 0; i < mesh.nodes(); ++i)
     if (mesh.original_ids[i] % 3 != 0) list.push_back(constraint_of(mesh, i));
   return list;
 }
 
-Projector4 projector_of(const mesh::DistributedMesh& mesh, std::int32_t node) {
+Projector4 projector_of(const distributed::DistributedMesh& mesh, std::int32_t node) {
   if (mesh.original_ids[node] % 3 != 0) return Projector4(constraint_of(mesh, node));
   return Projector4({node, identity<double>(), false});
 }

@@ -53,7 +53,7 @@ Neighbours coupled(const mesh::MeshData& data, bool with_hosts, bool lumen, bool
   return result;
 }
 
-void expect_rows(const mesh::DistributedMesh& mesh, const BlockPattern& pattern, const Neighbours& expected) {
+void expect_rows(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, const Neighbours& expected) {
   ASSERT_EQ(pattern.rows, mesh.owned_nodes);
   EXPECT_EQ(pattern.columns_count, mesh.nodes());
   for (std::int32_t i = 0; i < pattern.rows; ++i) {
@@ -70,20 +70,20 @@ void expect_rows(const mesh::DistributedMesh& mesh, const BlockPattern& pattern,
 
 TEST(BlockPattern, CouplesTheNodesOfAnElementAndTheirHosts) {
   const auto data = small_tube();
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   expect_rows(mesh, make_pattern(mesh), coupled(data, true, true, true));
 }
 
 TEST(BlockPattern, OfOneKindKeepsOnlyDiagonalsElsewhere) {
   const auto data = small_tube();
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   expect_rows(mesh, make_pattern(mesh, mesh::RegionKind::lumen), coupled(data, true, true, false));
   expect_rows(mesh, make_pattern(mesh, mesh::RegionKind::wall), coupled(data, true, false, true));
 }
 
 TEST(BlockPattern, OfPressuresCouplesElementsAndTwinWithHost) {
   const auto data = small_tube();
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   auto expected = coupled(data, false, true, true);
   for (const auto& [wall, lumen] : data.twins) {
     expected[static_cast<std::size_t>(wall)].insert(lumen);
@@ -93,7 +93,7 @@ TEST(BlockPattern, OfPressuresCouplesElementsAndTwinWithHost) {
 }
 
 TEST(BlockPattern, SlotsFindTheirBlockAndGhostRowsEndBehindTheLast) {
-  const auto mesh = mesh::distribute(small_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(small_tube(), MPI_COMM_WORLD);
   const auto pattern = make_pattern(mesh);
   for (std::int32_t i = 0; i < pattern.rows; ++i)
     for (auto b = pattern.row_begin[i]; b < pattern.row_begin[i + 1]; ++b)

@@ -10,14 +10,14 @@ namespace tunica::assembly {
 namespace {
 
 struct Batches : testing::TestWithParam<int> {
-  mesh::DistributedMesh mesh = mesh::distribute(mesh::tube({.radius = 1,
-                                                            .length = 2,
-                                                            .wall_thickness = 0.3,
-                                                            .cells_around = 8,
-                                                            .cells_radial = 1,
-                                                            .cells_along = 3,
-                                                            .cells_through_wall = 2}),
-                                                MPI_COMM_WORLD);
+  distributed::DistributedMesh mesh = distributed::distribute(mesh::tube({.radius = 1,
+                                                                          .length = 2,
+                                                                          .wall_thickness = 0.3,
+                                                                          .cells_around = 8,
+                                                                          .cells_radial = 1,
+                                                                          .cells_along = 3,
+                                                                          .cells_through_wall = 2}),
+                                                              MPI_COMM_WORLD);
   BlockPattern pattern = make_pattern(mesh);
 };
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "tunica/assembly/isa.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::test {
 

@@ -14,7 +14,7 @@ namespace {
 // What it does to a real system is tested with the coupling, where tangents of flow and wall are at hand.
 TEST(SchurPreconditioner, NamesTheNodeOfASingularBlockOnEveryRank) {
   const auto data = mesh::box(3, 3, 3, {{1, 1, 1}}, mesh::RegionKind::lumen);
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const auto pattern = make_pattern(mesh);
   BlockMatrix matrix(pattern);
   std::int64_t bad = -1;  // the node at (1, 1, 1)

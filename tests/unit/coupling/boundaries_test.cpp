@@ -16,12 +16,12 @@ namespace {
 using test::at;
 
 struct Bound {
-  mesh::DistributedMesh mesh;
+  distributed::DistributedMesh mesh;
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
   Boundaries boundaries;
 
   Bound(const mesh::MeshData& data, const BoundaryInput& input)
-      : mesh(mesh::distribute(data, MPI_COMM_WORLD)), boundaries(mesh, pattern, input) {}
+      : mesh(distributed::distribute(data, MPI_COMM_WORLD)), boundaries(mesh, pattern, input) {}
 
   // By local node; free nodes are not there.
   std::map<std::int32_t, assembly::NodeConstraint> constraints() const {
@@ -47,7 +47,7 @@ BoundaryInput flow_input(bc::Condition inlet, bc::Condition outlet, bc::Conditio
 }
 
 // Volume flow out of a face, from nodal velocities.
-double outflow(const mesh::DistributedMesh& mesh, const std::string& name, const std::vector<double>& v) {
+double outflow(const distributed::DistributedMesh& mesh, const std::string& name, const std::vector<double>& v) {
   const auto& face = mesh.face(name);
   double sum = 0;
   for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
@@ -360,7 +360,7 @@ TEST(Boundaries, NodalPressureIsAFollowerPressure) {
   auto input = test::fsi_input(test::pressure(0.0), test::pressure(0.0));
   const auto residual_with = [&](const bc::Condition& outer, double nodal) {
     input.boundary.conditions.back().second = outer;
-    const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+    const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
     input.boundary.wall_pressures.clear();
     if (nodal != 0) input.boundary.wall_pressures.emplace_back("wall_outer", std::vector(mesh.points.size(), nodal));
     const Bound b(test::fsi_tube(), input.boundary);
@@ -375,7 +375,7 @@ TEST(Boundaries, NodalPressureIsAFollowerPressure) {
 }
 
 TEST(Boundaries, RefuseAFaceThatIsNotThere) {
-  const auto mesh = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
   const auto pattern = assembly::make_pattern(mesh);
   auto in = flow_input(test::pressure(0.0), test::pressure(0.0));
   in.conditions.push_back({"lumen_exit", bc::NoSlip{}});

@@ -21,7 +21,7 @@ const wall::Coefficients wall_coefficients{1500.0, 4e-4, 0.7 / 4e-4};
 
 // Sums over elements one by one, in double precision, with the sums of magnitudes as a measure of rounding.
 struct NaiveSystem {
-  const mesh::DistributedMesh& mesh;
+  const distributed::DistributedMesh& mesh;
   struct Sum {
     double value = 0, magnitude = 0;
     void add(double x) {
@@ -32,7 +32,7 @@ struct NaiveSystem {
   std::vector<Sum> residual;
   std::map<std::pair<std::int32_t, std::int32_t>, std::array<Sum, 16>> blocks;  // row-major entries
 
-  explicit NaiveSystem(const mesh::DistributedMesh& m) : mesh(m), residual(at(m.nodes())) {}
+  explicit NaiveSystem(const distributed::DistributedMesh& m) : mesh(m), residual(at(m.nodes())) {}
 
   // Motion acts on the host, pressure on the node.
   void add(const std::array<std::int32_t, 4>& nodes, const fe::ElementVector<double>& r,
@@ -91,7 +91,7 @@ void add_wall(NaiveSystem& system, const test::Fields& f, const std::array<std::
 }
 
 struct Loops : testing::TestWithParam<wall::Element> {
-  mesh::DistributedMesh mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+  distributed::DistributedMesh mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
   test::Fields fields = test::random_fields(mesh);
   wall::Parameters wall = test::soft_wall(GetParam());

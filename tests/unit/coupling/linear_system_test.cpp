@@ -15,7 +15,7 @@ using test::noise;
 
 // Residual and tangent as in a time step, with the lumen mesh held where the fields have it.
 struct FsiSystem {
-  mesh::DistributedMesh mesh;
+  distributed::DistributedMesh mesh;
   ProblemInput input;
   assembly::Isa isa = assembly::choose_isa();
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
@@ -25,7 +25,7 @@ struct FsiSystem {
   assembly::BlockMatrix matrix{pattern};
 
   explicit FsiSystem(MPI_Comm comm)
-      : mesh(mesh::distribute(test::fsi_tube(), comm)),
+      : mesh(distributed::distribute(test::fsi_tube(), comm)),
         input(test::fsi_input(test::pressure(1e3), test::pressure(0.0))) {}
 
   std::vector<double> assemble(const test::Fields& fields, assembly::BlockMatrix* tangent) const {

@@ -20,7 +20,7 @@ Vec3<double> linear_motion(const Vec3<double>& x) {
 }
 
 // Nodes of all named faces, ghosts included.
-std::vector<char> boundary_nodes(const mesh::DistributedMesh& mesh) {
+std::vector<char> boundary_nodes(const distributed::DistributedMesh& mesh) {
   std::vector<double> marked(mesh.nodes(), 0.0);
   for (const auto& face : mesh.faces)
     for (const auto& triangle : face.triangles)
@@ -31,7 +31,7 @@ std::vector<char> boundary_nodes(const mesh::DistributedMesh& mesh) {
 
 // Largest error of the extension of `linear_motion` from the boundary, relative to the largest motion.
 double patch_error(const mesh::MeshData& data, const ale::Parameters& parameters) {
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const auto on_boundary = boundary_nodes(mesh);
   std::vector<NodeConstraint> constraints;
   std::vector<double> u(at(mesh.nodes()), 0.0);
@@ -60,12 +60,12 @@ TEST(MeshMotion, ExtendsALinearMotionExactly) {
 
 // The lumen of a tube, its interface led and its openings in their planes.
 struct Lumen {
-  mesh::DistributedMesh mesh;
+  distributed::DistributedMesh mesh;
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
   Boundaries boundaries{mesh, pattern, test::fsi_input(test::pressure(0.0), test::pressure(0.0)).boundary};
   MeshMotion motion{mesh, assembly::choose_isa(), {}, boundaries.mesh_constraints()};
 
-  explicit Lumen(MPI_Comm comm) : mesh(mesh::distribute(test::fsi_tube(), comm)) {}
+  explicit Lumen(MPI_Comm comm) : mesh(distributed::distribute(test::fsi_tube(), comm)) {}
 
   // The interface bulges and slides along the axis, differently at each place.
   void move_interface(std::vector<double>& u, double size) const {
@@ -160,7 +160,7 @@ TEST(MeshMotion, NothingToDoTakesNoIteration) {
 
 TEST(MeshQuality, NamesTheWorstElementOnEveryRank) {
   const auto data = test::fluid_tube();
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   std::vector<double> position(at(mesh.nodes()), 0.0);
   for (std::int32_t i = 0; i < mesh.nodes(); ++i)
     for (int c = 0; c < 3; ++c) position[at(i) + c] = 2.0 * mesh.points[i][c];

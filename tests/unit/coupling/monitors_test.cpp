@@ -57,7 +57,7 @@ const FaceRecord& face(const StepRecord& record, const std::string& name) {
 TEST(Monitors, RigidTube) {
   mesh::TubeSizes lumen = sizes;
   lumen.wall_thickness = 0;
-  const auto mesh = mesh::distribute(mesh::tube(lumen), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(mesh::tube(lumen), MPI_COMM_WORLD);
   ProblemInput in = flow_input();
   const double Q = 2e-5;
   in.boundary.conditions = {
@@ -90,7 +90,7 @@ TEST(Monitors, RigidTube) {
 TEST(Monitors, FluidAtRestHasThePressureOfItsEnds) {
   mesh::TubeSizes lumen = sizes;
   lumen.wall_thickness = 0;
-  const auto mesh = mesh::distribute(mesh::tube(lumen), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(mesh::tube(lumen), MPI_COMM_WORLD);
   ProblemInput in = flow_input();
   const bc::Pressure pressure{bc::WaveformInput{500.0}};
   in.boundary.conditions = {{"lumen_inlet", pressure}, {"lumen_outlet", pressure}, {"lumen_wall", bc::NoSlip{}}};
@@ -106,7 +106,7 @@ class CoupledMonitors : public testing::TestWithParam<wall::Element> {};
 
 // Balances that hold to the tolerance of Newton's method, and those that hold to the accuracy of the time step.
 TEST_P(CoupledMonitors, BalancesClose) {
-  const auto mesh = mesh::distribute(mesh::tube(sizes), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(mesh::tube(sizes), MPI_COMM_WORLD);
   Problem problem(mesh, coupled_input(GetParam()));
   State state = problem.initial_state();
   const Monitors monitors(problem);

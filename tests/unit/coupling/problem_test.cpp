@@ -28,7 +28,7 @@ void expect_same_bits(const State& a, const State& b) {
   for (std::size_t k = 0; k < a.outlets.size(); ++k) EXPECT_EQ(a.outlets[k].state(), b.outlets[k].state());
 }
 
-double largest(const mesh::DistributedMesh& mesh, const std::vector<double>& field) {
+double largest(const distributed::DistributedMesh& mesh, const std::vector<double>& field) {
   double size = 0;
   for (std::size_t k = 0; k < field.size(); ++k)
     if (k % 4 < 3) size = std::max(size, std::abs(field[k]));
@@ -65,7 +65,7 @@ ProblemInput bar_input(wall::Element element, double stress) {
 }
 
 TEST(Problem, WithoutLoadsStaysAtRest) {
-  const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
   Problem problem(mesh, test::fsi_input(test::pressure(0.0), windkessel()));
   auto state = problem.initial_state();
   for (int step = 1; step <= 3; ++step) {
@@ -80,8 +80,8 @@ TEST(Problem, WithoutLoadsStaysAtRest) {
 }
 
 TEST(Problem, StepIsTheSameOnAnyNumberOfRanks) {
-  const auto parts = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
-  const auto whole = mesh::distribute(test::fsi_tube(), MPI_COMM_SELF);
+  const auto parts = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+  const auto whole = distributed::distribute(test::fsi_tube(), MPI_COMM_SELF);
   auto input = test::fsi_input(test::pressure(1000.0), windkessel());
   input.newton.relative_tolerance = 1e-8;
   input.newton.mesh_tolerance = 1e-9;
@@ -102,7 +102,7 @@ TEST(Problem, StepIsTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(Problem, TwinsMoveWithTheirHostsAndTheInterfaceWithTheFlow) {
-  const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
   Problem problem(mesh, test::fsi_input(test::pressure(1000.0), test::pressure(0.0)));
   auto state = problem.initial_state();
   const auto scheme = assembly::TimeScheme::generalised_alpha(dt, 0.5);
@@ -141,7 +141,7 @@ TEST(Problem, TwinsMoveWithTheirHostsAndTheInterfaceWithTheFlow) {
 TEST(Problem, NewtonConvergesFast) {
   for (const auto element : {wall::Element::mixed, wall::Element::displacement}) {
     const auto mesh =
-        mesh::distribute(mesh::box(3, 2, 2, {{0.03, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
+        distributed::distribute(mesh::box(3, 2, 2, {{0.03, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
     Problem problem(mesh, bar_input(element, 1e5));
     auto state = problem.initial_state();
     const auto report = problem.advance(state, 2e-3);
@@ -150,7 +150,7 @@ TEST(Problem, NewtonConvergesFast) {
     EXPECT_LE(report.final_norm, 1e-4 * report.iterations.back().norm) << "the last iteration is quadratic";
   }
   {
-    const auto mesh = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
+    const auto mesh = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
     Problem problem(mesh, flow_input());
     auto state = problem.initial_state();
     for (int step = 0; step < 3; ++step) {
@@ -161,7 +161,7 @@ TEST(Problem, NewtonConvergesFast) {
     EXPECT_GT(largest(mesh, state.velocity_pressure), 0.05);
   }
   {
-    const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+    const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
     auto input = test::fsi_input(test::pressure(1000.0), windkessel());
     input.newton.relative_tolerance = 1e-9;
     Problem problem(mesh, input);
@@ -175,7 +175,7 @@ TEST(Problem, NewtonConvergesFast) {
 }
 
 TEST(Problem, RejectedStepLeavesTheStateUntouched) {
-  const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
   auto input = test::fsi_input(test::pressure(1000.0), windkessel());
   Problem sound(mesh, input);
   auto state = sound.initial_state();
@@ -207,7 +207,7 @@ TEST(Problem, RejectedStepLeavesTheStateUntouched) {
 }
 
 TEST(Problem, LinearSolverThatStopsEarlyIsReported) {
-  const auto mesh = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
   auto input = flow_input();
   input.linear.max_iterations = 1;
   Problem problem(mesh, input);
@@ -223,7 +223,7 @@ TEST(Problem, StaticBarHasTheStretchOfUniaxialTension) {
   const Vec3<double> size{{0.03, 0.01, 0.01}};
   const double stress = 400.0;  // Pa, a thousandth of Young's modulus
   for (const auto element : {wall::Element::mixed, wall::Element::displacement}) {
-    const auto mesh = mesh::distribute(mesh::box(3, 2, 2, size, mesh::RegionKind::wall), MPI_COMM_WORLD);
+    const auto mesh = distributed::distribute(mesh::box(3, 2, 2, size, mesh::RegionKind::wall), MPI_COMM_WORLD);
     const auto input = bar_input(element, stress);
     Problem problem(mesh, input);
     auto state = problem.initial_state();
@@ -245,7 +245,8 @@ TEST(Problem, StaticBarHasTheStretchOfUniaxialTension) {
 }
 
 TEST(Problem, NodalForcesActLikeATractionAndThroughTwinsOnHosts) {
-  const auto mesh = mesh::distribute(mesh::box(3, 2, 2, {{0.03, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
+  const auto mesh =
+      distributed::distribute(mesh::box(3, 2, 2, {{0.03, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
   const double stress = 400.0;
   Problem pulled(mesh, bar_input(wall::Element::displacement, stress));
   Problem forced(mesh, bar_input(wall::Element::displacement, 0.0));
@@ -267,7 +268,7 @@ TEST(Problem, NodalForcesActLikeATractionAndThroughTwinsOnHosts) {
 }
 
 TEST(Problem, PartialResidualsBalanceAtTheInterface) {
-  const auto mesh = mesh::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
   auto input = test::fsi_input(test::pressure(1000.0), test::pressure(0.0));
   input.newton.relative_tolerance = 1e-9;
   Problem problem(mesh, input);
@@ -291,7 +292,7 @@ TEST(Problem, PartialResidualsBalanceAtTheInterface) {
 }
 
 TEST(Problem, RefusesPhysicsThatDoNotFitTheMesh) {
-  const auto lumen = mesh::distribute(test::fluid_tube(), MPI_COMM_WORLD);
+  const auto lumen = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
   auto input = flow_input();
   input.fluid.reset();
   EXPECT_THROW(Problem(lumen, input), InputError);

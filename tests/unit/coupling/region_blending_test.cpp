@@ -39,7 +39,7 @@ struct Error {
 /// Difference from the solution of the filter on a bar of half length H:
 /// 1 - cosh((H - x) / l) / (2 cosh(H / l)) at the distance x into the region; on a long bar 1 - exp(-x / l) / 2.
 Error error_of(int cells) {
-  const auto m = mesh::distribute(two_regions(cells), MPI_COMM_WORLD);
+  const auto m = distributed::distribute(two_regions(cells), MPI_COMM_WORLD);
   const auto w = blend_regions(m, {0, 1}, 2, length);
   const double l = length / (2.0 * std::sqrt(3.0));
   double largest = 0.0, sums[2] = {0.0, 0.0};  // of squares, and of ones: the elements are of one size
@@ -69,7 +69,7 @@ TEST(RegionBlending, FollowsTheFilterOnABarWithSecondOrder) {
 
 TEST(RegionBlending, DoesNotDependOnTheRanks) {
   const auto data = two_regions(16);
-  const auto whole = mesh::distribute(data, MPI_COMM_SELF), part = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto whole = distributed::distribute(data, MPI_COMM_SELF), part = distributed::distribute(data, MPI_COMM_WORLD);
   const auto expected = blend_regions(whole, {0, 1}, 2, length), w = blend_regions(part, {0, 1}, 2, length);
   for (std::size_t r = 0; r < 2; ++r) {
     std::map<std::int64_t, double> first;
@@ -81,7 +81,7 @@ TEST(RegionBlending, DoesNotDependOnTheRanks) {
 }
 
 TEST(RegionBlending, LengthZeroIsSharp) {
-  const auto m = mesh::distribute(two_regions(8), MPI_COMM_WORLD);
+  const auto m = distributed::distribute(two_regions(8), MPI_COMM_WORLD);
   const auto w = blend_regions(m, {1, 0}, 2, 0.0);
   for (std::size_t r = 0; r < 2; ++r)
     for (std::size_t e = 0; e < m.regions[r].elements.size(); ++e) {
@@ -91,7 +91,7 @@ TEST(RegionBlending, LengthZeroIsSharp) {
 }
 
 TEST(ElementFields, GoWithTheirElements) {
-  const auto m = mesh::distribute(two_regions(8), MPI_COMM_WORLD);
+  const auto m = distributed::distribute(two_regions(8), MPI_COMM_WORLD);
   for (const auto& region : m.regions) {
     const auto& field = region.field("numbers");
     ASSERT_EQ(field.values.size(), 2 * region.elements.size());

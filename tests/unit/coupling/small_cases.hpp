@@ -82,7 +82,7 @@ struct FieldSizes {
   double displacement = 5e-5, velocity = 0.1, pressure = 1e3, acceleration = 50;
 };
 
-inline Fields random_fields(const mesh::DistributedMesh& mesh, const FieldSizes& sizes = {}) {
+inline Fields random_fields(const distributed::DistributedMesh& mesh, const FieldSizes& sizes = {}) {
   Fields f;
   const std::size_t n = at(mesh.nodes());
   for (auto* field :
@@ -106,8 +106,8 @@ inline Fields random_fields(const mesh::DistributedMesh& mesh, const FieldSizes&
 
 /// Largest difference between owned nodes of `mesh` and the same nodes of a mesh on one rank, over the largest value
 /// there; `begin`, `end`: components that are compared. Collective over mesh.comm.
-inline double difference(const mesh::DistributedMesh& mesh, const std::vector<double>& values,
-                         const mesh::DistributedMesh& whole, const std::vector<double>& whole_values, int begin,
+inline double difference(const distributed::DistributedMesh& mesh, const std::vector<double>& values,
+                         const distributed::DistributedMesh& whole, const std::vector<double>& whole_values, int begin,
                          int end) {
   std::vector<std::int32_t> local(static_cast<std::size_t>(whole.global_nodes));
   for (std::int32_t i = 0; i < whole.nodes(); ++i) local[static_cast<std::size_t>(whole.original_ids[i])] = i;

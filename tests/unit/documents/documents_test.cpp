@@ -10,9 +10,9 @@
 #include <string>
 
 #include "tunica/base/error.hpp"
-#include "tunica/stages/case.hpp"
-#include "tunica/stages/fibres/fibres_case.hpp"
-#include "tunica/stages/material_case.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/case/fibres_case.hpp"
+#include "tunica/case/material_case.hpp"
 
 namespace tunica {
 namespace {
@@ -38,7 +38,7 @@ std::string first_yaml(const std::string& page) {
 TEST(Documents, CaseFileOfTheReadmeIsValid) {
   const std::string yaml = first_yaml(read(root / "README.md"));
   try {
-    const stages::Case parsed = stages::parse_case(yaml, root / "README.md");
+    const case_file::Case parsed = case_file::parse_case(yaml, root / "README.md");
     EXPECT_TRUE(parsed.solves_fluid() && parsed.solves_wall());
   } catch (const InputError& error) {
     FAIL() << error.what();
@@ -51,7 +51,7 @@ TEST(Documents, MaterialFilesOfTheExamplesAreValid) {
     if (entry.path().filename() == "material.yaml") {
       ++files;
       try {
-        EXPECT_FALSE(stages::read_material_case(entry.path()).value.tests.empty());
+        EXPECT_FALSE(case_file::read_material_case(entry.path()).value.tests.empty());
       } catch (const InputError& error) {
         ADD_FAILURE() << error.what();
       }
@@ -62,7 +62,7 @@ TEST(Documents, MaterialFilesOfTheExamplesAreValid) {
 TEST(Documents, FibresFilesAreValid) {
   const auto expect_valid = [](const std::string& yaml, const fs::path& file) {
     try {
-      EXPECT_FALSE(stages::fibres::parse_fibres_case(yaml, file).inlet.empty());
+      EXPECT_FALSE(case_file::parse_fibres_case(yaml, file).inlet.empty());
     } catch (const InputError& error) {
       ADD_FAILURE() << file << ": " << error.what();
     }

@@ -9,9 +9,9 @@
 
 #include "text.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/distributed/element_shape.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
 #include "tunica/frames/tears.hpp"
-#include "tunica/mesh/element_shape.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -47,7 +47,8 @@ std::vector<double> ids_with_ghosts(const ElementGraph& graph) {
 
 TEST(ElementGraph, NeighboursAndFacesDoNotDependOnTheRanks) {
   const auto data = small_tube();
-  const auto whole_mesh = mesh::distribute(data, MPI_COMM_SELF), mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto whole_mesh = distributed::distribute(data, MPI_COMM_SELF),
+             mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const ElementGraph whole(whole_mesh), graph(mesh);
   const auto whole_ids = ids_with_ghosts(whole), ids = ids_with_ghosts(graph);
   std::map<std::int64_t, std::int32_t> local;
@@ -70,7 +71,8 @@ TEST(ElementGraph, NeighboursAndFacesDoNotDependOnTheRanks) {
 
 TEST(Frames, DoNotDependOnTheRanks) {
   const auto data = small_tube();
-  const auto whole_mesh = mesh::distribute(data, MPI_COMM_SELF), mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto whole_mesh = distributed::distribute(data, MPI_COMM_SELF),
+             mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const ElementGraph whole(whole_mesh), graph(mesh);
   std::map<std::int64_t, std::int32_t> local;
   for (std::int32_t e = 0; e < whole.owned(); ++e) local[whole.id(e)] = e;
@@ -89,7 +91,7 @@ TEST(Frames, DoNotDependOnTheRanks) {
 }
 
 TEST(Frames, JumpIsTheLargestAngleOfAnAxisToThatOfANeighbour) {
-  const auto mesh = mesh::distribute(small_tube(), MPI_COMM_SELF);
+  const auto mesh = distributed::distribute(small_tube(), MPI_COMM_SELF);
   const ElementGraph graph(mesh);
   const auto f = make_frames(graph, tube_faces, {ConditionalMean{.cycles = 0}, Domain::wall});
   double largest = 0;
@@ -105,7 +107,7 @@ TEST(Frames, JumpIsTheLargestAngleOfAnAxisToThatOfANeighbour) {
 }
 
 TEST(Frames, AreOrthonormalRightHandedAndPointOutwards) {
-  const auto mesh = mesh::distribute(small_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(small_tube(), MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   // Vectors that are carried through a mesh of leaning elements go astray more than filtered dyads.
   for (const auto& [method, cosine] :
@@ -113,7 +115,7 @@ TEST(Frames, AreOrthonormalRightHandedAndPointOutwards) {
     const auto f = make_frames(graph, tube_faces, {method, Domain::lumen_and_wall});
     for (std::int32_t e = 0; e < graph.owned(); ++e) {
       EXPECT_NEAR(dot(cross(f.e1[e], f.e2[e]), f.e3[e]), 1, 1e-12);
-      const auto x = mesh::centroid(mesh, graph.nodes(e));
+      const auto x = distributed::centroid(mesh, graph.nodes(e));
       EXPECT_GT(dot(f.e3[e], {{x[0], x[1], 0}}), cosine * std::hypot(x[0], x[1]));
       EXPECT_GT(f.e2[e][2], 0.999);  // from the inlet to the outlet
       EXPECT_GT(f.confidence[e], 0.7);
@@ -124,7 +126,7 @@ TEST(Frames, AreOrthonormalRightHandedAndPointOutwards) {
 // Half of the tube's wall has no interface: vectors have to come from the other half.
 TEST(Frames, ReachElementsFarFromTheInterface) {
   auto data = mesh::box(24, 2, 1, {{0.024, 0.002, 0.001}}, mesh::RegionKind::wall);
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   // From the small face x = 0 through the length of the bar: e3 = x, and e2 along y.
   const FrameFaces faces{{"x_min"}, {"y_min"}, {"y_max"}};
@@ -141,7 +143,8 @@ TEST(Frames, ReachElementsFarFromTheInterface) {
 }
 
 TEST(Frames, SayWhereTheLongitudinalDirectionIsUndefined) {
-  const auto mesh = mesh::distribute(mesh::box(4, 4, 2, {{0.01, 0.01, 0.002}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
+  const auto mesh =
+      distributed::distribute(mesh::box(4, 4, 2, {{0.01, 0.01, 0.002}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   // The potential rises across the wall: nothing of it lies in the plane.
   const auto f = make_frames(graph, {{"z_min"}, {"z_min"}, {"z_max"}}, {FilteredDyads{}, Domain::wall});
@@ -153,7 +156,7 @@ TEST(Frames, SayWhereTheLongitudinalDirectionIsUndefined) {
 }
 
 TEST(Frames, RefuseFacesThatDoNotExistAndPartsOutOfReach) {
-  const auto mesh = mesh::distribute(small_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(small_tube(), MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   const std::string message = message_of<InputError>([&] { make_frames(graph, {{"inner"}, {"wall_inlet"}, {}}, {}); });
   EXPECT_NE(message.find("there is no face 'inner'"), std::string::npos) << message;
@@ -174,7 +177,7 @@ TEST(Frames, RefuseFacesThatDoNotExistAndPartsOutOfReach) {
       for (auto& n : t) n += shift;
     two.faces.push_back(face);
   }
-  const auto islands = mesh::distribute(two, MPI_COMM_WORLD);
+  const auto islands = distributed::distribute(two, MPI_COMM_WORLD);
   const ElementGraph parts(islands);
   const std::string unreached = message_of<InputError>([&] {
     make_frames(parts, {{"z_min"}, {"x_min", "far_x_min"}, {"x_max", "far_x_max"}}, {FilteredDyads{0.5}, Domain::wall});
@@ -205,7 +208,7 @@ TEST(SymmetricTensor, PrincipalDirectionOfASumOfDyads) {
 }
 
 TEST(Tears, AreRefusedForRegionsThatDoNotExistAndVesselsWithout) {
-  const auto mesh = mesh::distribute(small_tube(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(small_tube(), MPI_COMM_WORLD);
   const auto unknown = message_of<InputError>([&] { tear_points(mesh, {{"wall"}, {"false_wall"}}); });
   EXPECT_NE(unknown.find("no region 'false_wall'"), std::string::npos) << unknown;
   const auto none = message_of<InputError>([&] { tear_points(mesh, {{"wall"}, {}}); });

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "tunica/base/error.hpp"
-#include "tunica/stages/imaging/label_image.hpp"
+#include "tunica/imaging/label_image.hpp"
 
-namespace tunica::stages::imaging {
+namespace tunica::imaging {
 namespace {
 
 class ImageFile : public testing::Test {
@@ -173,4 +173,4 @@ TEST_F(ImageFile, RefusesWhatIsNoLabelledVolume) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::imaging
+}  // namespace tunica::imaging

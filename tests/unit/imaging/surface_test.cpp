@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "tunica/base/error.hpp"
-#include "tunica/stages/imaging/label_surface.hpp"
-#include "tunica/stages/imaging/smooth_field.hpp"
+#include "tunica/imaging/label_surface.hpp"
+#include "tunica/imaging/smooth_field.hpp"
 
-namespace tunica::stages::imaging {
+namespace tunica::imaging {
 namespace {
 
 constexpr double mm = 1e-3;
@@ -66,7 +66,7 @@ TEST(SmoothField, MovesACurvedSurfaceByHalfAsMuchAsAGaussian) {
 
 TEST(SmoothField, HasOutwardNormalsOnLeftHandedAxes) {
   const auto image = image_of([](const Point& p) { return norm(p) < 5 * mm; }, {26, 26, 26}, oblique());
-  EXPECT_GT(meshing::enclosed_volume(boundary(smooth_field(lumen_mask(image, {}, 5, silent), 0.85))), 0);
+  EXPECT_GT(geometry::enclosed_volume(boundary(smooth_field(lumen_mask(image, {}, 5, silent), 0.85))), 0);
 }
 
 TEST(LumenMask, KeepsTheLargestPieceAndFillsHoles) {
@@ -109,7 +109,7 @@ TEST(LabelSurface, IsAnOpenTubeWithItsPlanes) {
     EXPECT_LT(norm(end.centre - Point{{0, 0, upper ? 10 * mm : -10 * mm}}), 0.35 * mm);
     EXPECT_GT(dot(end.normal, normal), std::cos(6 * M_PI / 180));
   }
-  const auto loops = meshing::boundary_loops(result.lumen);
+  const auto loops = geometry::boundary_loops(result.lumen);
   ASSERT_EQ(loops.size(), 2U);
   auto closed = result.lumen;
   for (const auto& loop : loops) {
@@ -124,7 +124,7 @@ TEST(LabelSurface, IsAnOpenTubeWithItsPlanes) {
     for (std::size_t i = 0; i < loop.size(); ++i)
       closed.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], std::ssize(closed.points) - 1});
   }
-  EXPECT_NEAR(meshing::enclosed_volume(closed) / exact, 1, 0.02);
+  EXPECT_NEAR(geometry::enclosed_volume(closed) / exact, 1, 0.02);
 }
 
 TEST(LabelSurface, EndsAtTheBorderOfTheImageAndWhereItIsCut) {
@@ -185,4 +185,4 @@ TEST(LabelSurface, RefusesVesselsThatRunOutOfTheImageSideways) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::imaging
+}  // namespace tunica::imaging

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
+#include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "unit/mesh/check_mesh.hpp"
-#include "unit/mesh/temporary_folder.hpp"
 
 namespace tunica::mesh {
 
 namespace {
 
-using testing::message_of;
+using test::message_of;
 
 /// Two boxes that touch at x = 1: the lumen fills [0, 1] and the wall [1, 1.5].
 struct Boxes {

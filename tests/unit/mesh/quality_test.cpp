@@ -2,14 +2,14 @@
 
 #include <cmath>
 
+#include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "unit/mesh/check_mesh.hpp"
-#include "unit/mesh/temporary_folder.hpp"
 
 namespace tunica::mesh {
 
-using testing::message_of;
+using test::message_of;
 
 TEST(Quality, RegularTetrahedronIsPerfectAtAnySize) {
   for (double s : {1e-4, 1.0}) {
@@ -57,7 +57,7 @@ TEST(Quality, InvertedElementsAreRefusedWithPlace) {
   auto mesh = box(1, 1, 1, {{1, 1, 1}}, RegionKind::wall);
   std::swap(mesh.tetrahedra[3][0], mesh.tetrahedra[3][1]);
   const auto message = message_of<InputError>([&] { check_quality(mesh, 0, {}, "block"); });
-  const auto c = centroid(mesh.points, mesh.tetrahedra[3]);
+  const auto c = mesh::centroid(mesh.points, mesh.tetrahedra[3]);
   const Vec3<double> places[] = {c};
   EXPECT_NE(message.find("1 of 6 elements have no positive volume: " + list_places(places)), std::string::npos)
       << message;

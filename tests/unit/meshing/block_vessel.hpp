@@ -2,11 +2,11 @@
 // true lumen (small x) and a false one (large x), closed at both ends and joined to the true one by one hole.
 #pragma once
 
+#include "tunica/geometry/openings.hpp"
+#include "tunica/geometry/tetrahedra.hpp"
 #include "tunica/mesh/generate.hpp"
-#include "tunica/stages/meshing/openings.hpp"
-#include "tunica/stages/meshing/tetrahedra.hpp"
 
-namespace tunica::stages::meshing::test {
+namespace tunica::meshing::test {
 
 struct BlockVessel {
   int across = 9, along = 24;          ///< cells
@@ -16,22 +16,22 @@ struct BlockVessel {
 
 /// Labels by the cell that the centroid lies in.
 inline int block_label(const BlockVessel& v, int i, int j, int k) {
-  if (i == 0 || j == 0 || i == v.across - 1 || j == v.across - 1) return wall_label;
-  if (k < v.from || k >= v.to || i < v.flap_at) return lumen_label;
+  if (i == 0 || j == 0 || i == v.across - 1 || j == v.across - 1) return geometry::wall_label;
+  if (k < v.from || k >= v.to || i < v.flap_at) return geometry::lumen_label;
   const bool hole = v.hole && k >= 8 && k < 10 && j >= 4 && j < 6;
-  if (i == v.flap_at) return hole ? lumen_label : wall_label;
-  return k == v.from || k == v.to - 1 ? wall_label : lumen_label;
+  if (i == v.flap_at) return hole ? geometry::lumen_label : geometry::wall_label;
+  return k == v.from || k == v.to - 1 ? geometry::wall_label : geometry::lumen_label;
 }
 
-inline Tetrahedra block_vessel(const BlockVessel& v) {
+inline geometry::Tetrahedra block_vessel(const BlockVessel& v) {
   const double h = 1e-3;
   const auto box =
       mesh::box(v.across, v.across, v.along, {{v.across * h, v.across * h, v.along * h}}, mesh::RegionKind::wall);
-  Tetrahedra mesh;
+  geometry::Tetrahedra mesh;
   mesh.points = box.points;
   mesh.elements = box.tetrahedra;
   for (const auto& t : mesh.elements) {
-    Point c{{0, 0, 0}};
+    geometry::Point c{{0, 0, 0}};
     for (const auto n : t) c = c + 0.25 * mesh.points[n];
     mesh.labels.push_back(
         block_label(v, static_cast<int>(c[0] / h), static_cast<int>(c[1] / h), static_cast<int>(c[2] / h)));
@@ -41,21 +41,21 @@ inline Tetrahedra block_vessel(const BlockVessel& v) {
 }
 
 /// The two ends; `outer_radius` covers the corners of the square.
-inline std::vector<Opening> block_openings(const BlockVessel& v) {
+inline std::vector<geometry::Opening> block_openings(const BlockVessel& v) {
   const double middle = v.across * 0.5e-3, radius = v.across * 0.72e-3;
   return {{"inlet", {{middle, middle, 0}}, {{0, 0, -1}}, 0, radius, {}, {}, 0},
           {"outlet", {{middle, middle, v.along * 1e-3}}, {{0, 0, 1}}, 0, radius, {}, {}, 0}};
 }
 
-inline double volume(const Tetrahedra& mesh, int label) {
+inline double volume(const geometry::Tetrahedra& mesh, int label) {
   double sum = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (mesh.labels[e] != label) continue;
     const auto& t = mesh.elements[e];
-    const Point& a = mesh.points[t[0]];
+    const geometry::Point& a = mesh.points[t[0]];
     sum += dot(mesh.points[t[1]] - a, cross(mesh.points[t[2]] - a, mesh.points[t[3]] - a)) / 6;
   }
   return sum;
 }
 
-}  // namespace tunica::stages::meshing::test
+}  // namespace tunica::meshing::test

@@ -1,4 +1,4 @@
-#include "tunica/stages/meshing/boundary_layers.hpp"
+#include "tunica/meshing/boundary_layers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,17 +6,18 @@
 #include <set>
 
 #include "block_vessel.hpp"
-#include "small_surfaces.hpp"
-#include "tunica/stages/meshing/local_mesh.hpp"
-#include "tunica/stages/meshing/patient_complex.hpp"
-#include "tunica/stages/meshing/tetrahedralise.hpp"
+#include "tunica/meshing/local_mesh.hpp"
+#include "tunica/meshing/patient_complex.hpp"
+#include "tunica/meshing/tetrahedralise.hpp"
+#include "unit/geometry/small_surfaces.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::meshing {
 namespace {
 
+using namespace geometry::test;
 using namespace test;
 
-Tetrahedra tube_mesh() {
+geometry::Tetrahedra tube_mesh() {
   ComplexOptions options;
   options.sizes.largest = 1.5e-3;
   const auto prepared = patient_complex(
@@ -24,20 +25,20 @@ Tetrahedra tube_mesh() {
   return tetrahedralise(prepared.complex, prepared.sizes, {});
 }
 
-double area(const Tetrahedra& mesh, int neighbour) {
+double area(const geometry::Tetrahedra& mesh, int neighbour) {
   double sum = 0;
-  for (const auto& t : surface_triangles(mesh))
-    if (t.label == lumen_label && t.neighbour_label == neighbour) {
-      const Point& a = mesh.points[t.nodes[0]];
+  for (const auto& t : geometry::surface_triangles(mesh))
+    if (t.label == geometry::lumen_label && t.neighbour_label == neighbour) {
+      const geometry::Point& a = mesh.points[t.nodes[0]];
       sum += 0.5 * norm(cross(mesh.points[t.nodes[1]] - a, mesh.points[t.nodes[2]] - a));
     }
   return sum;
 }
 
-std::set<std::array<Index, 3>> interface_of(const Tetrahedra& mesh) {
-  std::set<std::array<Index, 3>> triangles;
-  for (auto t : surface_triangles(mesh)) {
-    if (t.neighbour_label != wall_label) continue;
+std::set<std::array<geometry::Index, 3>> interface_of(const geometry::Tetrahedra& mesh) {
+  std::set<std::array<geometry::Index, 3>> triangles;
+  for (auto t : geometry::surface_triangles(mesh)) {
+    if (t.neighbour_label != geometry::wall_label) continue;
     std::sort(t.nodes.begin(), t.nodes.end());
     triangles.insert(t.nodes);
   }
@@ -53,15 +54,15 @@ TEST(BoundaryLayers, LieAtTheWallAndChangeNothingElse) {
   const auto interface = interface_of(before);
   EXPECT_EQ(interface_of(mesh), interface);
   EXPECT_EQ(std::ssize(mesh.elements), std::ssize(before.elements) + 9 * std::ssize(interface));
-  EXPECT_NEAR(test::volume(mesh, lumen_label) / test::volume(before, lumen_label), 1, 1e-12);
-  EXPECT_NEAR(test::volume(mesh, wall_label) / test::volume(before, wall_label), 1, 1e-12);
-  EXPECT_NEAR(area(mesh, outside_label) / area(before, outside_label), 1, 1e-12);  // caps
+  EXPECT_NEAR(test::volume(mesh, geometry::lumen_label) / test::volume(before, geometry::lumen_label), 1, 1e-12);
+  EXPECT_NEAR(test::volume(mesh, geometry::wall_label) / test::volume(before, geometry::wall_label), 1, 1e-12);
+  EXPECT_NEAR(area(mesh, geometry::outside_label) / area(before, geometry::outside_label), 1, 1e-12);  // caps
   for (const auto& t : mesh.elements)
     EXPECT_GT(worst_sine(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]), 0.005);
   // The first layer is 0.3 mm / (1 + 1.5 + 2.25) thick; its nodes are the first new ones.
   const auto first = std::ssize(before.points), each = (std::ssize(mesh.points) - first) / 3;
   int all = 0, there = 0;
-  for (Index n = first; n < first + each; ++n) {
+  for (geometry::Index n = first; n < first + each; ++n) {
     const auto& p = mesh.points[n];
     if (p[2] < 5e-3 || p[2] > 15e-3) continue;
     ++all;
@@ -79,4 +80,4 @@ TEST(BoundaryLayers, AreThinnerWhereTheLumenIsNarrow) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::meshing

@@ -1,4 +1,4 @@
-#include "tunica/stages/meshing/local_mesh.hpp"
+#include "tunica/meshing/local_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,16 +6,16 @@
 #include <cmath>
 
 #include "block_vessel.hpp"
-#include "tunica/stages/meshing/reconnect.hpp"
+#include "tunica/meshing/reconnect.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::meshing {
 namespace {
 
 using Node = LocalMesh::Node;
 using Cell = LocalMesh::Cell;
 
 TEST(LocalMesh, WorstSineOfKnownShapes) {
-  const Point a{{1, 1, 1}}, b{{-1, 1, -1}}, c{{1, -1, -1}}, d{{-1, -1, 1}};
+  const geometry::Point a{{1, 1, 1}}, b{{-1, 1, -1}}, c{{1, -1, -1}}, d{{-1, -1, 1}};
   const double regular = std::sqrt(8.0) / 3;  // the dihedral angle has a cosine of 1/3
   EXPECT_NEAR(std::abs(worst_sine(a, b, c, d)), regular, 1e-12);
   EXPECT_NEAR(worst_sine(a, b, c, d), -worst_sine(b, a, c, d), 1e-12);
@@ -27,16 +27,16 @@ TEST(LocalMesh, WorstSineOfKnownShapes) {
 TEST(LocalMesh, NodesKnowWhereTheyAre) {
   const auto mesh = test::block_vessel({});
   const LocalMesh local(mesh);
-  Index inner = 0, surface = 0, curve = 0;
+  geometry::Index inner = 0, surface = 0, curve = 0;
   for (Node n = 0; n < std::ssize(mesh.points); ++n) {
     inner += local.place(n) == LocalMesh::Place::inner;
     surface += local.place(n) == LocalMesh::Place::surface;
     curve += local.place(n) == LocalMesh::Place::curve;
-    const Point& x = mesh.points[n];
+    const geometry::Point& x = mesh.points[n];
     if (x[0] == 0 && x[1] > 0.0015 && x[1] < 0.0075 && x[2] > 0.0005 && x[2] < 0.0235) {
       EXPECT_EQ(local.place(n), LocalMesh::Place::surface);
-      EXPECT_EQ(local.sides(n), (std::array<int, 2>{wall_label, outside_label}));
-      EXPECT_NEAR(norm(local.normal(n) - Point{{-1, 0, 0}}), 0, 1e-12);
+      EXPECT_EQ(local.sides(n), (std::array<int, 2>{geometry::wall_label, geometry::outside_label}));
+      EXPECT_NEAR(norm(local.normal(n) - geometry::Point{{-1, 0, 0}}), 0, 1e-12);
     }
   }
   EXPECT_GT(inner, 0);
@@ -47,7 +47,7 @@ TEST(LocalMesh, NodesKnowWhereTheyAre) {
 TEST(LocalMesh, RingsAreClosedInsideAndOpenOutside) {
   const auto mesh = test::block_vessel({});
   const LocalMesh local(mesh);
-  Index closed = 0, open = 0;
+  geometry::Index closed = 0, open = 0;
   for (Cell c = 0; c < local.cells(); c += 7) {
     const auto& k = local.corners(c);
     for (int a = 0; a < 4; ++a)
@@ -67,7 +67,7 @@ TEST(LocalMesh, RingsAreClosedInsideAndOpenOutside) {
 
 TEST(LocalMesh, SplittingKeepsVolumesAndIsComplete) {
   auto mesh = test::block_vessel({});
-  const double lumen = test::volume(mesh, lumen_label), wall = test::volume(mesh, wall_label);
+  const double lumen = test::volume(mesh, geometry::lumen_label), wall = test::volume(mesh, geometry::wall_label);
   LocalMesh local(mesh);
   const auto k = local.corners(1000);
   const auto ring = local.ring(k[0], k[1]);
@@ -77,14 +77,14 @@ TEST(LocalMesh, SplittingKeepsVolumesAndIsComplete) {
   EXPECT_TRUE(local.is_edge(k[0], middle));
   mesh = local.extract();
   EXPECT_EQ(std::ssize(mesh.elements), cells + std::ssize(ring->cells));
-  EXPECT_NEAR(test::volume(mesh, lumen_label), lumen, 1e-15);
-  EXPECT_NEAR(test::volume(mesh, wall_label), wall, 1e-15);
-  for (const auto& t : surface_triangles(mesh)) EXPECT_GE(t.label, 1);
+  EXPECT_NEAR(test::volume(mesh, geometry::lumen_label), lumen, 1e-15);
+  EXPECT_NEAR(test::volume(mesh, geometry::wall_label), wall, 1e-15);
+  for (const auto& t : geometry::surface_triangles(mesh)) EXPECT_GE(t.label, 1);
 }
 
 /// Three elements around the edge (0, 1), flat enough that two around the face (2, 3, 4) are better.
 TEST(Reconnect, RemovesAnEdgeOfThree) {
-  Tetrahedra mesh;
+  geometry::Tetrahedra mesh;
   const double low = 0.05;
   mesh.points = {{{0, 0, -low}}, {{0, 0, low}}, {{1, 0, 0}}, {{-0.5, 0.87, 0}}, {{-0.5, -0.87, 0}}};
   mesh.points[0][2] = -0.8;
@@ -109,7 +109,7 @@ TEST(Reconnect, RemovesAnEdgeOfThree) {
 
 /// A flat element that lies on a plane outer surface goes away.
 TEST(Reconnect, TakesAFlatElementOffTheSurface) {
-  Tetrahedra mesh;
+  geometry::Tetrahedra mesh;
   mesh.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}, {{0.5, 0.5, -0.7}}};
   // The upper nodes 0 and 2 are hardly higher: between them and 1, 3 lies the flat element.
   mesh.points[0][2] = mesh.points[2][2] = 1e-9;
@@ -125,13 +125,13 @@ TEST(Reconnect, TakesAFlatElementOffTheSurface) {
   EXPECT_TRUE(reconnect(local, 2, {}));
   const auto after = local.extract();
   EXPECT_EQ(after.elements.size(), 2U);
-  EXPECT_EQ(surface_triangles(after).size(), 6U);
+  EXPECT_EQ(geometry::surface_triangles(after).size(), 6U);
 }
 
 /// A rhombus (0, 2, 1, 3) cut along its long diagonal (0, 1), with node 4 above and, for two labels, node 5 below it.
 /// `bend`: height of the nodes beside the diagonal.
-Tetrahedra rhombus(bool two_labels, double bend) {
-  Tetrahedra mesh;
+geometry::Tetrahedra rhombus(bool two_labels, double bend) {
+  geometry::Tetrahedra mesh;
   mesh.points = {{{-1, 0, 0}}, {{1, 0, 0}}, {{0, 0.35, bend}}, {{0, -0.35, bend}}, {{0, 0, 0.6}}, {{0, 0, -0.6}}};
   mesh.elements = {{0, 1, 2, 4}, {1, 0, 3, 4}};
   mesh.labels = {1, 1};
@@ -170,4 +170,4 @@ TEST(Reconnect, KeepsAnEdgeWhereTheSurfaceBends) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::meshing

@@ -4,22 +4,22 @@
 #include <set>
 
 #include "block_vessel.hpp"
+#include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/interface.hpp"
-#include "tunica/mesh/simvascular.hpp"
-#include "tunica/stages/meshing/assemble.hpp"
-#include "tunica/stages/meshing/mesh_report.hpp"
-#include "tunica/stages/meshing/wall_regions.hpp"
-#include "unit/mesh/temporary_folder.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
+#include "tunica/meshing/assemble.hpp"
+#include "tunica/meshing/mesh_report.hpp"
+#include "tunica/meshing/wall_regions.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::meshing {
 namespace {
 
 struct Block {
   test::BlockVessel vessel;
-  Tetrahedra mesh;
-  std::vector<Opening> openings;
+  geometry::Tetrahedra mesh;
+  std::vector<geometry::Opening> openings;
   SurfaceFaces faces;
 };
 
@@ -37,12 +37,12 @@ TEST(WallRegions, PlacesOverrideWhatTheMeshTells) {
   const auto b = make_block();
   const auto count = [&](const WallRegionOptions& options, WallRegion region = WallRegion::flap) {
     const auto regions = find_wall_regions(b.mesh, {{b.faces.caps[0], false}, {b.faces.caps[1], false}}, options);
-    Index sum = 0;
+    geometry::Index sum = 0;
     for (std::size_t e = 0; e < b.mesh.elements.size(); ++e)
-      sum += b.mesh.labels[e] == wall_label && regions.of_element[e] == region;
+      sum += b.mesh.labels[e] == geometry::wall_label && regions.of_element[e] == region;
     return sum;
   };
-  const Point in_false{{6.5e-3, 4.5e-3, 14e-3}};
+  const geometry::Point in_false{{6.5e-3, 4.5e-3, 14e-3}};
   const auto usual = count({.thickest_flap = 1.5e-3});
   EXPECT_GT(usual, 100);
   EXPECT_EQ(count({.thickest_flap = 1.5e-3, .false_lumen = {in_false}}), usual);
@@ -58,7 +58,7 @@ TEST(WallRegions, TrueAndFalseLumenAndFlap) {
   const auto regions = find(b);
   const auto& v = b.vessel;
   for (std::size_t n = 0; n < b.mesh.points.size(); ++n) {
-    const Point x = 1e3 * b.mesh.points[n];
+    const geometry::Point x = 1e3 * b.mesh.points[n];
     if (regions.side[n] == 0) continue;
     if (x[2] < v.from - 1 || x[0] < v.flap_at) {
       EXPECT_GT(regions.side[n], 0) << x[0] << " " << x[1] << " " << x[2];
@@ -69,8 +69,8 @@ TEST(WallRegions, TrueAndFalseLumenAndFlap) {
   }
   int flap = 0;
   for (std::size_t e = 0; e < b.mesh.elements.size(); ++e) {
-    if (b.mesh.labels[e] != wall_label) continue;
-    const Point x = 1e3 * mesh::centroid(b.mesh.points, b.mesh.elements[e]);
+    if (b.mesh.labels[e] != geometry::wall_label) continue;
+    const geometry::Point x = 1e3 * mesh::centroid(b.mesh.points, b.mesh.elements[e]);
     const bool within = x[2] > v.from + 2 && x[2] < v.to - 2 && x[1] > 2 && x[1] < v.across - 2;
     if (within && x[0] > v.flap_at && x[0] < v.flap_at + 1 && !(x[2] > 7 && x[2] < 11 && x[1] > 3 && x[1] < 7)) {
       EXPECT_EQ(regions.of_element[e], WallRegion::flap) << x[0] << " " << x[1] << " " << x[2];
@@ -123,20 +123,20 @@ TEST(Assemble, RegionsFacesAndTwinsMakeASoundMesh) {
 TEST(Assemble, LumenAtTheOutsideIsAnError) {
   auto mesh = test::block_vessel({});
   for (auto& label : mesh.labels)
-    if (label == wall_label && &label - mesh.labels.data() > 2000) {
-      label = lumen_label;
+    if (label == geometry::wall_label && &label - mesh.labels.data() > 2000) {
+      label = geometry::lumen_label;
       break;
     }
-  const auto triangles = surface_triangles(mesh);
-  const bool breached = std::any_of(triangles.begin(), triangles.end(), [&](const LabelledTriangle& t) {
-    return t.label == lumen_label && t.neighbour_label == outside_label && mesh.points[t.nodes[0]][2] > 0.001 &&
-           mesh.points[t.nodes[0]][2] < 0.023;
+  const auto triangles = geometry::surface_triangles(mesh);
+  const bool breached = std::any_of(triangles.begin(), triangles.end(), [&](const geometry::LabelledTriangle& t) {
+    return t.label == geometry::lumen_label && t.neighbour_label == geometry::outside_label &&
+           mesh.points[t.nodes[0]][2] > 0.001 && mesh.points[t.nodes[0]][2] < 0.023;
   });
   if (!breached)  // else make one
     for (const auto& t : triangles)
-      if (t.label == wall_label && t.neighbour_label == outside_label && mesh.points[t.nodes[0]][2] > 0.002 &&
-          mesh.points[t.nodes[0]][2] < 0.02) {
-        mesh.labels[t.element] = lumen_label;
+      if (t.label == geometry::wall_label && t.neighbour_label == geometry::outside_label &&
+          mesh.points[t.nodes[0]][2] > 0.002 && mesh.points[t.nodes[0]][2] < 0.02) {
+        mesh.labels[t.element] = geometry::lumen_label;
         break;
       }
   EXPECT_THROW(sort_surface(mesh, test::block_openings({})), SolverError);
@@ -145,16 +145,16 @@ TEST(Assemble, LumenAtTheOutsideIsAnError) {
 TEST(SimVascularWriter, FilesReadBackAsTheSameMesh) {
   const auto b = make_block();
   const auto data = assemble(b.mesh, b.openings, b.faces, find(b));
-  const mesh::testing::TemporaryFolder folder;
-  EXPECT_EQ(mesh::write_simvascular(folder.path() / "lumen", data, mesh::RegionKind::lumen, 1e-3),
+  const tunica::test::TemporaryFolder folder;
+  EXPECT_EQ(mesh_io::write_simvascular(folder.path() / "lumen", data, mesh::RegionKind::lumen, 1e-3),
             std::vector<std::string>{"lumen"});
-  const auto names = mesh::write_simvascular(folder.path() / "wall", data, mesh::RegionKind::wall, 1e-3);
-  mesh::SimVascularOptions options{.metres_per_unit = 1e-3};
+  const auto names = mesh_io::write_simvascular(folder.path() / "wall", data, mesh::RegionKind::wall, 1e-3);
+  mesh_io::SimVascularOptions options{.metres_per_unit = 1e-3};
   std::vector<mesh::LoadedMesh> parts = {
-      mesh::read_simvascular(folder.path() / "lumen", mesh::RegionKind::lumen, "lumen", options)};
+      mesh_io::read_simvascular(folder.path() / "lumen", mesh::RegionKind::lumen, "lumen", options)};
   options.regions.emplace().array = "region";
   for (std::size_t r = 0; r < names.size(); ++r) options.regions->names.emplace(static_cast<int>(r) + 1, names[r]);
-  parts.push_back(mesh::read_simvascular(folder.path() / "wall", mesh::RegionKind::wall, "wall", options));
+  parts.push_back(mesh_io::read_simvascular(folder.path() / "wall", mesh::RegionKind::wall, "wall", options));
   const mesh::Interface interface {
     {lumen_interface}, { wall_interface }
   };
@@ -193,9 +193,9 @@ TEST(MeshReport, TopologyCountsHandles) {
 TEST(MeshReport, VolumesAreasAndShapes) {
   const auto b = make_block();
   const auto data = assemble(b.mesh, b.openings, b.faces, find(b));
-  const double lumen = test::volume(b.mesh, lumen_label), wall = test::volume(b.mesh, wall_label);
+  const double lumen = test::volume(b.mesh, geometry::lumen_label), wall = test::volume(b.mesh, geometry::wall_label);
   const Fidelity fidelity{{1e-4, 0.1}, {2e-4, 0.2}, lumen / 1.01, wall / 0.98};
-  const Thickness thickness{{1e-3, 2e-3, 3e-3, std::numeric_limits<double>::infinity()}, {0, 0, 1, 0}};
+  const geometry::Thickness thickness{{1e-3, 2e-3, 3e-3, std::numeric_limits<double>::infinity()}, {0, 0, 1, 0}};
   const std::vector<Tear> tears = {{{{1e-3, 2e-3, 3e-3}}, {{1, 0, 0}}, 5e-6}};
   const auto report =
       mesh_report({data, wall_layers(b.mesh, b.faces.outer), fidelity, thickness, tears, {{"test", 1.5}}, 1e6});
@@ -212,8 +212,8 @@ TEST(MeshReport, VolumesAreasAndShapes) {
     if (face["name"] == "lumen_inlet") {
       EXPECT_NEAR(face["area_mm2"].get<double>(), 49, 1e-9);
     }
-  Index counted = 0;
-  for (const auto& n : report["shapes"]["dihedral_histogram_5_deg"]) counted += n.get<Index>();
+  geometry::Index counted = 0;
+  for (const auto& n : report["shapes"]["dihedral_histogram_5_deg"]) counted += n.get<geometry::Index>();
   EXPECT_EQ(counted, std::ssize(data.tetrahedra));
   EXPECT_NEAR(report["shapes"]["smallest_dihedral_deg"].get<double>(), 45, 1e-6);  // Kuhn's split
   EXPECT_NEAR(report["shapes"]["edge_mm"]["longest"].get<double>(), std::sqrt(3.0), 1e-9);
@@ -221,4 +221,4 @@ TEST(MeshReport, VolumesAreasAndShapes) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::meshing

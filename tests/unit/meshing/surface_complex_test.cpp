@@ -1,39 +1,39 @@
-#include "tunica/stages/meshing/surface_complex.hpp"
+#include "tunica/meshing/surface_complex.hpp"
 
 #include <set>
 
-#include "small_surfaces.hpp"
-#include "tunica/stages/meshing/caps.hpp"
-#include "tunica/stages/meshing/grown_wall.hpp"
-#include "tunica/stages/meshing/surface_file.hpp"
-#include "tunica/stages/meshing/surface_mending.hpp"
+#include "tunica/geometry/caps.hpp"
+#include "tunica/geometry/surface_file.hpp"
+#include "tunica/geometry/surface_mending.hpp"
+#include "tunica/meshing/grown_wall.hpp"
+#include "unit/geometry/small_surfaces.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::meshing {
 namespace {
 
-using namespace test;
+using namespace geometry::test;
 
 PatientSurfaces two_tubes() {
   return {tube(5e-3, 20e-3, 60, 30), tube(6e-3, 20e-3, 72, 30), {{"in", {{0, 0, 0}}}, {"out", {{0, 0, 20e-3}}}}};
 }
 
 TEST(PlaneCap, FillsADiscAndARing) {
-  std::vector<Point> outer, inner;
+  std::vector<geometry::Point> outer, inner;
   for (int i = 0; i < 40; ++i) outer.push_back({{2 * std::cos(M_PI * i / 20), 2 * std::sin(M_PI * i / 20), 1}});
   for (int i = 0; i < 20; ++i) inner.push_back({{std::cos(M_PI * i / 10), std::sin(M_PI * i / 10), 1}});
   const double disc = 20 * 4 * std::sin(M_PI / 20), hole = 10 * std::sin(M_PI / 10);
   for (const double z : {1.0, -1.0}) {
-    auto cap = plane_cap(outer, {}, {{0, 0, z}});
-    EXPECT_NEAR(area(cap), disc, 1e-12);
-    for (const auto& t : cap.triangles) EXPECT_GT(z * area_vector(cap, t)[2], 0);
+    auto cap = geometry::plane_cap(outer, {}, {{0, 0, z}});
+    EXPECT_NEAR(geometry::area(cap), disc, 1e-12);
+    for (const auto& t : cap.triangles) EXPECT_GT(z * geometry::area_vector(cap, t)[2], 0);
     EXPECT_GT(smallest_angle_degrees(cap), 20);
-    cap = plane_cap(outer, inner, {{0, 0, z}});
-    EXPECT_NEAR(area(cap), disc - hole, 1e-12);
-    EXPECT_EQ(boundary_loops(cap).size(), 2u);
+    cap = geometry::plane_cap(outer, inner, {{0, 0, z}});
+    EXPECT_NEAR(geometry::area(cap), disc - hole, 1e-12);
+    EXPECT_EQ(geometry::boundary_loops(cap).size(), 2u);
     for (std::size_t p = 0; p < 60; ++p) EXPECT_EQ(norm(cap.points[p] - (p < 40 ? outer[p] : inner[p - 40])), 0);
   }
   for (auto& p : inner) p[0] += 1.5;
-  EXPECT_TRUE(says(message_of<SolverError>([&] { plane_cap(outer, inner, {{0, 0, 1}}); }), "cross"));
+  EXPECT_TRUE(says(message_of<SolverError>([&] { geometry::plane_cap(outer, inner, {{0, 0, 1}}); }), "cross"));
 }
 
 TEST(PatientComplex, ClosesAndLabelsATubeWithWall) {
@@ -71,7 +71,7 @@ TEST(PatientComplex, AWrongUnitIsAnError) {
 }
 
 TEST(VesselRoles, NamesThatNoOpeningHasAreErrors) {
-  const std::vector<NamedPlace> names = {{"in", {{0, 0, 0}}}, {"out", {{0, 0, 20e-3}}}};
+  const std::vector<geometry::NamedPlace> names = {{"in", {{0, 0, 0}}}, {"out", {{0, 0, 20e-3}}}};
   VesselRoles roles;
   roles.inlet = "out";
   EXPECT_NO_THROW(check_names(roles, names));
@@ -82,7 +82,8 @@ TEST(VesselRoles, NamesThatNoOpeningHasAreErrors) {
 TEST(CheckNesting, WritesPlacesWhereNoFolderIsYet) {
   const Folder folder;
   const auto tubes = two_tubes();
-  EXPECT_THROW(check_nesting(*tubes.outer, tubes.lumen, 0.1e-3, folder.path / "mesh" / "problems.vtp"), InputError);
+  EXPECT_THROW(geometry::check_nesting(*tubes.outer, tubes.lumen, 0.1e-3, folder.path / "mesh" / "problems.vtp"),
+               InputError);
   EXPECT_TRUE(std::filesystem::exists(folder.path / "mesh" / "problems.vtp"));
 }
 
@@ -138,7 +139,7 @@ TEST(PatientComplex, WrittenWithPatches) {
   const Folder folder;
   const auto complex = patient_complex(two_tubes(), {}).complex;
   write_complex(complex, folder.path / "complex.vtp");
-  EXPECT_EQ(read_surface(folder.path / "complex.vtp", 1).triangles, complex.triangles);
+  EXPECT_EQ(geometry::read_surface(folder.path / "complex.vtp", 1).triangles, complex.triangles);
 }
 
 TEST(Verify, FindsGapsTurnedPatchesAndCrossings) {
@@ -157,4 +158,4 @@ TEST(Verify, FindsGapsTurnedPatchesAndCrossings) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::meshing

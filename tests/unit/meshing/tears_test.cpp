@@ -1,18 +1,16 @@
-#include "tunica/stages/meshing/tears.hpp"
+#include "tunica/meshing/tears.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "block_vessel.hpp"
-#include "tunica/stages/meshing/canvas.hpp"
-#include "tunica/stages/meshing/element_cut.hpp"
-#include "tunica/stages/page.hpp"
+#include "tunica/meshing/element_cut.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::meshing {
 namespace {
 
-double area(const std::vector<Point>& polygon) {
+double area(const std::vector<geometry::Point>& polygon) {
   Vec3<double> sum{{0, 0, 0}};
   for (std::size_t k = 2; k < polygon.size(); ++k)
     sum = sum + 0.5 * cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
@@ -20,7 +18,7 @@ double area(const std::vector<Point>& polygon) {
 }
 
 TEST(ZeroPolygon, CutsOfAUnitTetrahedron) {
-  const std::array<Point, 4> corners = {{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}};
+  const std::array<geometry::Point, 4> corners = {{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}};
   const auto cut = [&](const Vec3<double>& n, double at) {
     std::array<double, 4> values;
     for (int k = 0; k < 4; ++k) values[k] = dot(n, corners[k]) - at;
@@ -47,26 +45,10 @@ TEST(FindTears, TheHoleOfTheBlockVessel) {
   const auto tears = find_tears(mesh, side);
   ASSERT_EQ(tears.size(), 1U);
   EXPECT_NEAR(tears[0].area, 4e-6, 1e-12);  // two cells by two
-  EXPECT_NEAR(norm(tears[0].centre - Point{{4.5e-3, 5e-3, 9e-3}}), 0, 1e-9);
+  EXPECT_NEAR(norm(tears[0].centre - geometry::Point{{4.5e-3, 5e-3, 9e-3}}), 0, 1e-9);
   EXPECT_NEAR(tears[0].normal[0], -1, 1e-9);
   EXPECT_TRUE(find_tears(test::block_vessel({.hole = false}), side).empty());
 }
 
-TEST(Canvas, DrawsWhatIsInFront) {
-  Canvas canvas(40, 40, {{{0, 0, 0}}, {{0, 0, 1}}, {{0, 1, 0}}, 4});
-  const auto square = [&](double z, double reach, Colour colour) {
-    const Point a{{-reach, -reach, z}}, b{{reach, -reach, z}}, c{{reach, reach, z}}, d{{-reach, reach, z}};
-    canvas.add({a, b, c}, colour);
-    canvas.add({a, c, d}, colour);
-  };
-  square(0, 1, {200, 0, 0});
-  const auto red = canvas.png();
-  square(-1, 1, {0, 200, 0});  // hidden
-  EXPECT_EQ(canvas.png(), red);
-  square(1, 0.5, {0, 0, 200});
-  EXPECT_NE(canvas.png(), red);
-  EXPECT_EQ(page::data_url({'P', 'N', 'G', '!'}), "data:image/png;base64,UE5HIQ==");
-}
-
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::meshing

@@ -1,12 +1,12 @@
-#include "tunica/stages/meshing/wall_growth.hpp"
+#include "tunica/meshing/wall_growth.hpp"
 
-#include "small_surfaces.hpp"
-#include "tunica/stages/meshing/triangle_tree.hpp"
+#include "tunica/geometry/triangle_tree.hpp"
+#include "unit/geometry/small_surfaces.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::meshing {
 namespace {
 
-using namespace test;
+using namespace geometry::test;
 
 GrowthSettings settings() {
   GrowthSettings s;
@@ -16,15 +16,15 @@ GrowthSettings settings() {
 
 TEST(WallGrowth, UniformAroundATube) {
   const auto lumen = tube(5e-3, 15e-3, 48, 20);
-  const auto openings = find_openings(lumen, nullptr, {});
+  const auto openings = geometry::find_openings(lumen, nullptr, {});
   const auto outer = grow_wall(lumen, std::vector<double>(lumen.points.size(), 1.5e-3), openings, settings());
-  EXPECT_EQ(genus(outer, 2), 0);
-  const auto loops = boundary_loops(outer);
+  EXPECT_EQ(geometry::genus(outer, 2), 0);
+  const auto loops = geometry::boundary_loops(outer);
   ASSERT_EQ(loops.size(), 2u);
   for (const auto& loop : loops)
     for (const auto p : loop) EXPECT_NEAR(std::abs(outer.points[p][2] - 7.5e-3), 7.5e-3, 1e-12);
   for (const auto& p : outer.points) EXPECT_NEAR(std::hypot(p[0], p[1]), 6.5e-3, 0.08e-3);
-  const auto normals = point_normals(outer);
+  const auto normals = geometry::point_normals(outer);
   for (std::size_t p = 0; p < normals.size(); ++p) EXPECT_GT(dot(normals[p], outer.points[p]), 0);
 }
 
@@ -32,7 +32,7 @@ TEST(WallGrowth, ThicknessFollowsItsField) {
   const auto lumen = tube(5e-3, 20e-3, 48, 24);
   std::vector<double> thickness;
   for (const auto& p : lumen.points) thickness.push_back(1.2e-3 + 0.05 * p[2]);
-  const auto outer = grow_wall(lumen, thickness, find_openings(lumen, nullptr, {}), settings());
+  const auto outer = grow_wall(lumen, thickness, geometry::find_openings(lumen, nullptr, {}), settings());
   for (const auto& p : outer.points) EXPECT_NEAR(std::hypot(p[0], p[1]), 6.2e-3 + 0.05 * p[2], 0.12e-3);
 }
 
@@ -40,9 +40,9 @@ TEST(WallGrowth, BetweenTwoLumensTheWallIsSolid) {
   // A tube and a closed lumen beside it, 2 mm apart, with walls of 1.5 mm: one outer surface, round in the notch.
   const auto lumen = two_lumens();
   const std::vector<double> thickness(lumen.points.size(), 1.5e-3);
-  const auto outer = grow_wall(lumen, thickness, find_openings(lumen, nullptr, {}), settings());
-  EXPECT_EQ(genus(outer, 2), 0);
-  const auto part = components(outer);
+  const auto outer = grow_wall(lumen, thickness, geometry::find_openings(lumen, nullptr, {}), settings());
+  EXPECT_EQ(geometry::genus(outer, 2), 0);
+  const auto part = geometry::components(outer);
   EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
   // The notch at x = 0: without fillet the surface would be at y = sqrt(5.5^2 - 5^2) = 2.29 mm.
   double notch = 1;
@@ -59,27 +59,29 @@ TEST(WallGrowth, ThicknessByRadius) {
   s.per_radius = 0.2;
   s.thinnest = 1e-3;
   s.thickest = 2e-3;
-  for (const auto t : thickness_by_radius(lumen, find_openings(lumen, nullptr, {}), s)) EXPECT_NEAR(t, 1.6e-3, 0.1e-3);
+  for (const auto t : thickness_by_radius(lumen, geometry::find_openings(lumen, nullptr, {}), s))
+    EXPECT_NEAR(t, 1.6e-3, 0.1e-3);
   s.thinnest = s.thickest;
-  for (const auto t : thickness_by_radius(lumen, find_openings(lumen, nullptr, {}), s)) EXPECT_EQ(t, 2e-3);
+  for (const auto t : thickness_by_radius(lumen, geometry::find_openings(lumen, nullptr, {}), s)) EXPECT_EQ(t, 2e-3);
 }
 
 TEST(CutEnd, LeavesAPlaneRim) {
-  const auto surface = cut_end(tube(5e-3, 20e-3, 40, 21), {{{0, 0, 10e-3}}, {{0, 0.1, std::sqrt(0.99)}}, 6e-3});
-  EXPECT_EQ(genus(surface, 2), 0);
+  const auto surface =
+      geometry::cut_end(tube(5e-3, 20e-3, 40, 21), {{{0, 0, 10e-3}}, {{0, 0.1, std::sqrt(0.99)}}, 6e-3});
+  EXPECT_EQ(geometry::genus(surface, 2), 0);
   for (const auto& p : surface.points) EXPECT_LT(0.1 * p[1] + std::sqrt(0.99) * (p[2] - 10e-3), 1e-9);
 }
 
 TEST(CutEnd, RefusesMoreThanAnEnd) {
   const auto text = message_of<SolverError>([] {
-    cut_end(tube(5e-3, 20e-3, 40, 21), {{{5e-3, 0, 10e-3}}, {{1, 0, 0}}, 2e-3});
+    geometry::cut_end(tube(5e-3, 20e-3, 40, 21), {{{5e-3, 0, 10e-3}}, {{1, 0, 0}}, 2e-3});
   });
   EXPECT_TRUE(text.empty()) << text;  // a plane that touches only
   const auto other = message_of<SolverError>([] {
-    cut_end(tube(5e-3, 20e-3, 40, 21), {{{0, 0, 10e-3}}, {{1, 0, 0}}, 6e-3});
+    geometry::cut_end(tube(5e-3, 20e-3, 40, 21), {{{0, 0, 10e-3}}, {{1, 0, 0}}, 6e-3});
   });
   EXPECT_TRUE(says(other, "touches another vessel")) << other;
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::meshing

@@ -1,5 +1,5 @@
 // Material files: what they accept, the curves, the tables, the comparison with measured points.
-#include "tunica/stages/material.hpp"
+#include "tunica/stages/material/material.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "shared_folder.hpp"
-#include "tunica/stages/csv_file.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::stages {
 namespace {
@@ -39,13 +39,13 @@ struct Material : testing::Test {
     std::fclose(out);
     return test::slurp(screen);
   }
-  CsvColumns table(const std::string& name) const {
-    return read_csv(folder.path() / "results" / (name + ".csv"), "the test writes it");
+  files::CsvColumns table(const std::string& name) const {
+    return files::read_csv(folder.path() / "results" / (name + ".csv"), "the test writes it");
   }
 };
 
 TEST_F(Material, TheSchemaIsSound) {
-  EXPECT_EQ(config::audit(*MaterialCase::schema().description()), std::vector<std::string>{});
+  EXPECT_EQ(config::audit(*case_file::MaterialCase::schema().description()), std::vector<std::string>{});
 }
 
 TEST_F(Material, EveryTestGivesItsTableAndPlot) {
@@ -63,7 +63,7 @@ TEST_F(Material, EveryTestGivesItsTableAndPlot) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / (std::string(name) + ".svg"))) << name;
     EXPECT_NE(screen.find(std::string(name) + ": "), std::string::npos) << name;
   }
-  const CsvColumns pull = table("pull");
+  const files::CsvColumns pull = table("pull");
   EXPECT_EQ(pull.headers.size(), 2u + 9 + 1 + 2 + 6 + 6 + 1 + 21);
   ASSERT_EQ(pull.columns[0].size(), 4u);
   const double l = 1.3, sigma = 50.0 * (l * l - 1.0 / l);
@@ -73,7 +73,7 @@ TEST_F(Material, EveryTestGivesItsTableAndPlot) {
   EXPECT_NEAR(pull.column("Psi [kPa]").back(), 25.0 * (l * l + 2.0 / l - 3.0), 1e-7);
   EXPECT_NEAR(pull.column("J").back(), 1.0, 1e-10);
   EXPECT_EQ(table("push").column("stretch").front(), 0.9);
-  const CsvColumns two = table("two");
+  const files::CsvColumns two = table("two");
   EXPECT_NEAR(two.column("F22").back(), 1.2, 1e-10);
   EXPECT_NEAR(two.column("F33").back(), 1.1, 1e-10);
   EXPECT_NEAR(two.column("P across [kPa]").back(), two.column("sigma33 [kPa]").back() / 1.1, 1e-7);
@@ -92,7 +92,7 @@ TEST_F(Material, TheTangentBelongsToTheStress) {
       "        - [1.1, 0.05, -0.02, 0.03, 1.07, 0.04, 0.01, -0.06, 0.98]\n"
       "        - [1.1, 0.05, -0.02, 0.03, 1.07, 0.04, 0.01, -0.06, 0.98001]\n");
   if (!first) return;
-  const CsvColumns t = table("given");
+  const files::CsvColumns t = table("given");
   const auto strain = [&](int row, int i, int j) {
     double sum = 0.0;
     for (int k = 1; k <= 3; ++k)
@@ -153,16 +153,17 @@ TEST_F(Material, GradientsFromAFileAndOnTheScreen) {
 
 TEST_F(Material, AllErrorsAtOnce) {
   const std::string message = message_of<InputError>([&] {
-    config::parse_text(MaterialCase::schema(), soft +
-                                                   "tests:\n"
-                                                   "  a: {planar: {along: e1, across: {angle: 45 deg}, to: 1.2}}\n"
-                                                   "  b: {uniaxial: {to: 1}}\n"
-                                                   "  c: {biaxial: {to: 1.2}}\n"
-                                                   "  d: {gradients: {list: [[1, 0, 0, 0, 1, 0, 0, 0, -1]]}}\n"
-                                                   "  e: {gradients: {}}\n"
-                                                   "  f: {uniaxial: {to: 1.2, stpes: 3}}\n"
-                                                   "  g: {uniaxial: {along: {vector: [0, 0, 0]}, to: 1.2}}\n"
-                                                   "  h: {biaxial: {to: 1.2, ratio: 1, to_across: 1}}\n");
+    config::parse_text(case_file::MaterialCase::schema(),
+                       soft +
+                           "tests:\n"
+                           "  a: {planar: {along: e1, across: {angle: 45 deg}, to: 1.2}}\n"
+                           "  b: {uniaxial: {to: 1}}\n"
+                           "  c: {biaxial: {to: 1.2}}\n"
+                           "  d: {gradients: {list: [[1, 0, 0, 0, 1, 0, 0, 0, -1]]}}\n"
+                           "  e: {gradients: {}}\n"
+                           "  f: {uniaxial: {to: 1.2, stpes: 3}}\n"
+                           "  g: {uniaxial: {along: {vector: [0, 0, 0]}, to: 1.2}}\n"
+                           "  h: {biaxial: {to: 1.2, ratio: 1, to_across: 1}}\n");
   });
   for (const char* part :
        {"is not perpendicular", "is where the path begins", "the second stretch is not given", "has the determinant -1",
@@ -170,17 +171,19 @@ TEST_F(Material, AllErrorsAtOnce) {
     EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
 
   const std::string whole = message_of<InputError>([&] {
-    config::parse_text(MaterialCase::schema(), soft + "incompressible: false\ntests: {../a: {uniaxial: {to: 1.2}}}\n");
+    config::parse_text(case_file::MaterialCase::schema(),
+                       soft + "incompressible: false\ntests: {../a: {uniaxial: {to: 1.2}}}\n");
   });
   EXPECT_NE(whole.find("no finite bulk modulus"), std::string::npos) << whole;
   EXPECT_NE(whole.find("is no name of a file"), std::string::npos) << whole;
 }
 
 TEST_F(Material, IncompressibleOverridesTheBulkModulus) {
-  const auto parsed =
-      config::parse_text(MaterialCase::schema(), fibres + "incompressible: true\ntests: {a: {uniaxial: {to: 1.2}}}\n");
+  const auto parsed = config::parse_text(case_file::MaterialCase::schema(),
+                                         fibres + "incompressible: true\ntests: {a: {uniaxial: {to: 1.2}}}\n");
   EXPECT_FALSE(std::isfinite(parsed.value.volumetric().bulk_modulus));
-  const auto as_given = config::parse_text(MaterialCase::schema(), fibres + "tests: {a: {uniaxial: {to: 1.2}}}\n");
+  const auto as_given =
+      config::parse_text(case_file::MaterialCase::schema(), fibres + "tests: {a: {uniaxial: {to: 1.2}}}\n");
   EXPECT_EQ(as_given.value.volumetric().bulk_modulus, 1e6);
 }
 

@@ -1,5 +1,5 @@
 // The parts of `tunica verify`; the whole runs in the regression tests of the commands.
-#include "tunica/stages/verify.hpp"
+#include "tunica/stages/material/verify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "tunica/fe/tetrahedron.hpp"
-#include "tunica/stages/csv_file.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::stages {
 namespace {
@@ -41,7 +41,7 @@ TEST(Verify, AnalyticCurvesEqualTheTables) {
   if (!std::filesystem::exists(folder / "shear.csv")) GTEST_SKIP() << "no reference data in " << TUNICA_SHARED_DATA;
   for (const CubeCase& c : cube_cases()) {
     const bool extension = c.loading == CubeLoading::extension;
-    const CsvColumns table = read_csv(folder / (extension ? "uniaxial.csv" : "shear.csv"), "reference");
+    const files::CsvColumns table = files::read_csv(folder / (extension ? "uniaxial.csv" : "shear.csv"), "reference");
     const std::string family = c.material.tension_only ? "2fam_switch" : "2fam_noswitch";
     const std::string name =
         extension ? (c.material.shear_modulus < 75e3 ? "sigma_mu50_" : "sigma_mu100_") + family : "sigma13_" + family;

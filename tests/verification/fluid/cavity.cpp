@@ -49,7 +49,7 @@ void check_cavity(double reynolds, const std::string& column, int n, double allo
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no reference data";
   auto data = mesh::box(n, n, 1, {{side, side, 1.0 / n}}, mesh::RegionKind::lumen);
   for (auto& x : data.points) x = Vec3<double>{{graded(x[0]), graded(x[1]), x[2]}};
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   auto input = newtonian(1.0, lid * side / reynolds);
   bc::Fixed plane;
   plane.directions = {false, false, false, true, false};

@@ -56,8 +56,8 @@ coupling::ProblemInput case_input() {
   return input;
 }
 
-mesh::DistributedMesh cube(int n) {
-  return mesh::distribute(mesh::box(n, n, n, {{2, 2, 2}}, mesh::RegionKind::lumen), MPI_COMM_WORLD);
+distributed::DistributedMesh cube(int n) {
+  return distributed::distribute(mesh::box(n, n, n, {{2, 2, 2}}, mesh::RegionKind::lumen), MPI_COMM_WORLD);
 }
 
 TEST(EthierSteinman, OrdersInSpace) {
@@ -91,8 +91,8 @@ struct TimeErrors {
   double velocity = 0, pressure = 0;
 };
 
-TimeErrors time_error(const mesh::DistributedMesh& mesh, const coupling::ProblemInput& base, double dt, double end,
-                      const coupling::State& start, const coupling::State& last,
+TimeErrors time_error(const distributed::DistributedMesh& mesh, const coupling::ProblemInput& base, double dt,
+                      double end, const coupling::State& start, const coupling::State& last,
                       const std::vector<std::vector<double>>& pressures, double reference_dt) {
   auto input = base;
   input.fluid->c_m = base.fluid->c_m * dt / reference_dt;

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "tunica/coupling/problem.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/fe/tetrahedron.hpp"
-#include "tunica/mesh/distributed_mesh.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 

@@ -16,7 +16,7 @@ TEST(FreeStream, SurvivesRandomMotionOfTheMesh) {
   const Vec3<double> stream{{0.4, -0.25, 0.6}};
   const auto uniform = [&](const Vec3<double>&, double) { return stream; };
   const auto mesh =
-      mesh::distribute(mesh::box(n, n, n, {{length, length, length}}, mesh::RegionKind::lumen), MPI_COMM_WORLD);
+      distributed::distribute(mesh::box(n, n, n, {{length, length, length}}, mesh::RegionKind::lumen), MPI_COMM_WORLD);
   auto input = newtonian(1060, 0.004);
   for (const char* face : {"x_min", "x_max", "y_min", "y_max", "z_min"})
     input.boundary.velocity_fields.emplace_back(face, uniform);

@@ -12,7 +12,7 @@ struct Found {
 };
 
 Found measure(int around, int rings, int along) {
-  const auto mesh = mesh::distribute(
+  const auto mesh = distributed::distribute(
       mesh::tube(
           {.radius = radius, .length = length, .cells_around = around, .cells_radial = rings, .cells_along = along}),
       MPI_COMM_WORLD);

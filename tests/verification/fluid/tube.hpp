@@ -23,7 +23,8 @@ inline mesh::MeshData graded_tube(const mesh::TubeSizes& sizes, const std::funct
 inline double radius_of(const Vec3<double>& X) { return std::hypot(X[0], X[1]); }
 
 /// Mean over the nodes of the cross-section at z, of entry `c` of [local node][4]. Collective.
-inline double section_mean(const mesh::DistributedMesh& mesh, const std::vector<double>& field, int c, double z) {
+inline double section_mean(const distributed::DistributedMesh& mesh, const std::vector<double>& field, int c,
+                           double z) {
   std::vector<double> sums(2, 0.0);
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     if (std::abs(mesh.points[i][2] - z) < 1e-9) {
@@ -35,7 +36,7 @@ inline double section_mean(const mesh::DistributedMesh& mesh, const std::vector<
 }
 
 /// Outward volume flow through a face of a mesh at rest [m^3/s]. Collective.
-inline double face_flow(const mesh::DistributedMesh& mesh, const std::string& name, const double* velocity) {
+inline double face_flow(const distributed::DistributedMesh& mesh, const std::string& name, const double* velocity) {
   const auto& face = mesh.face(name);
   double flow = 0;
   for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
@@ -48,7 +49,7 @@ inline double face_flow(const mesh::DistributedMesh& mesh, const std::string& na
 }
 
 /// Mean pressure of a face of a mesh at rest [Pa]. Collective.
-inline double face_pressure(const mesh::DistributedMesh& mesh, const std::string& name, const double* values) {
+inline double face_pressure(const distributed::DistributedMesh& mesh, const std::string& name, const double* values) {
   const auto& face = mesh.face(name);
   std::vector<double> sums(2, 0.0);
   for (std::int32_t t = 0; t < face.owned_triangles; ++t) {

@@ -49,7 +49,7 @@ TEST(Womersley, RigidTube) {
 
   constexpr int around = 64, rings = 20, along = 4;
   const auto grade = [](double r) { return r * (1.6 - 0.6 * r); };  // finer towards the wall
-  const auto mesh = mesh::distribute(
+  const auto mesh = distributed::distribute(
       graded_tube(
           {.radius = radius, .length = length, .cells_around = around, .cells_radial = rings, .cells_along = along},
           grade),

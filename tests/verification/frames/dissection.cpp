@@ -7,42 +7,41 @@
 #include <map>
 #include <string>
 
+#include "tunica/distributed/element_shape.hpp"
 #include "tunica/frames/frames.hpp"
 #include "tunica/frames/tears.hpp"
-#include "tunica/mesh/element_shape.hpp"
-#include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/geometry/dissection_model.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "verification/frames/angles.hpp"
 
 namespace tunica::frames {
 namespace {
 
-namespace meshing = stages::meshing;
-using meshing::mm;
+using geometry::mm;
 using test::angle_between;
 using test::Angles;
 
 /// Away from where wall, flap and branches meet.
 constexpr double clear = 4 * mm;
 
-const meshing::ParametricDissection& shape() {
+const geometry::ParametricDissection& shape() {
   static const auto parsed =
-      config::parse_text(meshing::ParametricDissection::schema(),
+      config::parse_text(geometry::ParametricDissection::schema(),
                          "{celiac: {}, superior_mesenteric: {}, left_renal: {}, right_renal: {}, iliacs: {}}");
   return parsed.value;
 }
 
 /// On rank 0.
-mesh::MeshData make_data(const meshing::Size& size) {
+mesh::MeshData make_data(const case_file::Size& size) {
   return parallel::on_root(MPI_COMM_WORLD, [&] {
-    meshing::MeshCase c;
+    case_file::MeshCase c;
     c.geometry = shape();
     c.size = size;
-    return meshing::make_mesh(c, [](const std::string&) {}).data;
+    return stages::make_mesh(c, [](const std::string&) {}).data;
   });
 }
 
-FrameFaces faces_of(const mesh::DistributedMesh& mesh) {
+FrameFaces faces_of(const distributed::DistributedMesh& mesh) {
   FrameFaces faces{{"wall_inner"}, {"wall_inlet", "lumen_inlet"}, {}};
   for (const auto& face : mesh.faces)
     if (face.name != "wall_inner" && face.name != "wall_outer" && face.name != "lumen_wall" &&
@@ -54,13 +53,13 @@ FrameFaces faces_of(const mesh::DistributedMesh& mesh) {
 /// Angles of e1, e2, e3 to those of the body: everywhere, away from meeting parts in total and by region, within 10 mm
 /// and 2 mm of the rims of the tears, and where confidence is below one half.
 std::map<std::string, Angles> measure(const ElementGraph& graph, const Frames& f) {
-  static const meshing::DissectionModel model(shape());
+  static const geometry::DissectionModel model(shape());
   std::map<std::string, Angles> angles;
   for (const char* name : {"all", "low confidence", "clear", "near tears", "rims"}) angles[name];
   for (const auto& region : graph.mesh().regions)
     if (region.kind == mesh::RegionKind::wall) angles[region.name];
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto x = mesh::centroid(graph.mesh(), graph.nodes(e));
+    const auto x = distributed::centroid(graph.mesh(), graph.nodes(e));
     const auto exact = model.axes(x);
     const std::array<double, 3> off = {angle_between(f.e1[e], cross(exact.longitudinal, exact.normal)),
                                        angle_between(f.e2[e], exact.longitudinal),
@@ -92,14 +91,14 @@ std::map<std::string, Angles> measure(const ElementGraph& graph, const FrameSett
 
 /// Distances to the tears that are found from the mesh against those of the model, in the flap.
 void expect_tears_found(const ElementGraph& graph) {
-  const meshing::DissectionModel model(shape());
+  const geometry::DissectionModel model(shape());
   const auto points = tear_points(graph.mesh(), {{"true_lumen_wall"}, {"false_lumen_wall"}});
   // Near tears only: the points lie across them, not far along the vessel.
   for (const auto& p : points) EXPECT_LT(model.at(p).tear, 1 * mm) << p[0] << " " << p[1] << " " << p[2];
   const auto found = distances(graph, points);
   double count = 0, sum = 0;
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto v = model.at(mesh::centroid(graph.mesh(), graph.nodes(e)));
+    const auto v = model.at(distributed::centroid(graph.mesh(), graph.nodes(e)));
     if (graph.mesh().regions[graph.region(e)].name != "flap" || v.tear > 10 * mm) continue;
     ++count;
     sum += std::abs(found[e] - std::max(0.0, v.tear));
@@ -110,11 +109,11 @@ void expect_tears_found(const ElementGraph& graph) {
   EXPECT_LT(mean, 2 * mm);
 }
 
-void expect_frames(const meshing::Size& size) {
-  const auto mesh = mesh::distribute(make_data(size), MPI_COMM_WORLD);
+void expect_frames(const case_file::Size& size) {
+  const auto mesh = distributed::distribute(make_data(size), MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   if (parallel::rank(MPI_COMM_WORLD) == 0)
-    std::printf("edge %.2f mm, %lld tetrahedra\n", meshing::edge_length(size) / mm,
+    std::printf("edge %.2f mm, %lld tetrahedra\n", case_file::edge_length(size) / mm,
                 static_cast<long long>(mesh.global_elements));
   const auto joined = measure(graph, {FilteredDyads{}, Domain::lumen_and_wall}, "filtered, lumen and wall"),
              alone = measure(graph, {FilteredDyads{}, Domain::wall}, "filtered, wall alone"),
@@ -135,8 +134,8 @@ void expect_frames(const meshing::Size& size) {
   expect_tears_found(graph);
 }
 
-TEST(DissectionFrames, Coarse) { expect_frames(meshing::Coarse{}); }
-TEST(DissectionFrames, Medium) { expect_frames(meshing::Medium{}); }
+TEST(DissectionFrames, Coarse) { expect_frames(case_file::Coarse{}); }
+TEST(DissectionFrames, Medium) { expect_frames(case_file::Medium{}); }
 
 }  // namespace
 }  // namespace tunica::frames

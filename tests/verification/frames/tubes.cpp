@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tunica/distributed/element_shape.hpp"
 #include "tunica/frames/frames.hpp"
-#include "tunica/mesh/element_shape.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "verification/frames/angles.hpp"
 
@@ -58,13 +58,13 @@ struct Measured {
 Measured measure(mesh::MeshData data, bool is_bent, const NormalMethod& method) {
   if (is_bent)
     for (auto& p : data.points) p = bent(p);
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   const FrameFaces faces{{"wall_inner"}, {"wall_inlet", "lumen_inlet"}, {"wall_outlet", "lumen_outlet"}};
   const auto f = make_frames(graph, faces, {method, Domain::lumen_and_wall});
   Measured measured;
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto x = mesh::centroid(mesh, graph.nodes(e));
+    const auto x = distributed::centroid(mesh, graph.nodes(e));
     const auto exact = is_bent ? bent_axes(x) : straight_axes(x);
     const std::array<double, 3> off = {angle_between(f.e1[e], cross(exact.e2, exact.e3)),
                                        angle_between(f.e2[e], exact.e2), angle_between(f.e3[e], exact.e3)};
@@ -142,7 +142,7 @@ Plate plate(int refinement, bool filled) {
                                 .cells_radial = refinement,
                                 .cells_along = refinement,
                                 .cells_through_wall = 8 * refinement});
-  const auto mesh = mesh::distribute(data, MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
   const ElementGraph graph(mesh);
   const double hole = filled ? 0 : a * a;
   LaplaceConditions conditions(mesh);
@@ -154,8 +154,8 @@ Plate plate(int refinement, bool filled) {
   const auto phi = solve_laplace(mesh, filled ? Domain::lumen_and_wall : Domain::wall, conditions, "plate").phi;
   Angles angles;
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto g = mesh::shape(mesh, graph.nodes(e));
-    const auto x = mesh::centroid(mesh, graph.nodes(e));
+    const auto g = distributed::shape(mesh, graph.nodes(e));
+    const auto x = distributed::centroid(mesh, graph.nodes(e));
     Vec3<double> gradient{{0, 0, 0}};
     for (int k = 0; k < 4; ++k) gradient = gradient + phi[graph.nodes(e)[k]] * g.dN[k];
     const double r2 = x[0] * x[0] + x[1] * x[1], h = hole / r2;

@@ -61,7 +61,7 @@ ProblemInput pulse_input(wall::Element element) {
   return in;
 }
 
-mesh::DistributedMesh tube(MPI_Comm comm, int around, int radial, int along) {
+distributed::DistributedMesh tube(MPI_Comm comm, int around, int radial, int along) {
   mesh::MeshData data;
   if (parallel::rank(comm) == 0)
     data = mesh::tube({.radius = radius,
@@ -71,14 +71,14 @@ mesh::DistributedMesh tube(MPI_Comm comm, int around, int radial, int along) {
                        .cells_radial = radial,
                        .cells_along = along,
                        .cells_through_wall = 2});
-  return mesh::distribute(data, comm);
+  return distributed::distribute(data, comm);
 }
 
 /// Mean radial displacement of the inner wall [m] and mean pressure of the section [Pa] at z.
 struct Section {
   double displacement, pressure;
 };
-Section section(const mesh::DistributedMesh& mesh, const State& state, double z) {
+Section section(const distributed::DistributedMesh& mesh, const State& state, double z) {
   double sums[4] = {};
   const auto here = [&](std::int32_t i) {
     return i < mesh.owned_nodes && std::abs(mesh.points[i][2] - z) < 1e-6 * length;
@@ -136,14 +136,14 @@ void print_arrivals(const char* what, const Signal& s) {
 
 /// Inner radial displacement of the wall alone under the static pulse, ends held along the axis or free [m].
 double static_displacement(bool plane_strain) {
-  const auto mesh = mesh::distribute(mesh::thick_cylinder({.inner = radius,
-                                                           .outer = radius + thickness,
-                                                           .length = thickness,
-                                                           .cells_radial = 2,
-                                                           .cells_around = 16,
-                                                           .cells_along = 2},
-                                                          mesh::Sector::quarter),
-                                     MPI_COMM_SELF);
+  const auto mesh = distributed::distribute(mesh::thick_cylinder({.inner = radius,
+                                                                  .outer = radius + thickness,
+                                                                  .length = thickness,
+                                                                  .cells_radial = 2,
+                                                                  .cells_around = 16,
+                                                                  .cells_along = 2},
+                                                                 mesh::Sector::quarter),
+                                            MPI_COMM_SELF);
   ProblemInput in = pulse_input(wall::Element::mixed);
   in.fluid.reset();
   in.boundary.fluid.reset();

@@ -10,11 +10,11 @@
 #include <random>
 
 #include "tunica/base/error.hpp"
+#include "tunica/geometry/dissection_model.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/stages/meshing/dissection_model.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::stages {
 namespace {
 
 void silent(const std::string&) {}
@@ -24,15 +24,15 @@ struct Volumes {
 };
 
 /// Of the body itself, by counting points of a fine grid.
-Volumes count_volumes(const DissectionModel& model) {
+Volumes count_volumes(const geometry::DissectionModel& model) {
   const double h = 0.8e-3;
-  const Box box = model.box();
+  const geometry::Box box = model.box();
   Volumes v;
   for (double x = box.low[0] + 0.37 * h; x < box.high[0]; x += h)
     for (double y = box.low[1] + 0.61 * h; y < box.high[1]; y += h)
       for (double z = box.low[2] + 0.13 * h; z < box.high[2]; z += h) {
         const int label = model.label({{x, y, z}});
-        (label == lumen_label ? v.lumen : v.wall) += label == outside_label ? 0 : h * h * h * 1e6;
+        (label == geometry::lumen_label ? v.lumen : v.wall) += label == geometry::outside_label ? 0 : h * h * h * 1e6;
       }
   return v;
 }
@@ -43,8 +43,8 @@ struct Result {
   Volumes volumes;
 };
 
-Result make(const ParametricDissection& shape, const Size& size, int elements_through_wall = 1) {
-  MeshCase mesh_case;
+Result make(const geometry::ParametricDissection& shape, const case_file::Size& size, int elements_through_wall = 1) {
+  case_file::MeshCase mesh_case;
   mesh_case.geometry = shape;
   mesh_case.size = size;
   mesh_case.elements_through_wall = elements_through_wall;
@@ -56,7 +56,7 @@ Result make(const ParametricDissection& shape, const Size& size, int elements_th
 }
 
 /// What holds for every mesh of a dissection with two tears.
-void expect_sound(const Result& r, const DissectionModel& model) {
+void expect_sound(const Result& r, const geometry::DissectionModel& model) {
   EXPECT_GE(r.report["shapes"]["smallest_dihedral_deg"].get<double>(), 3);
   EXPECT_GE(r.report["shapes"]["dihedral_of_worst_0.01_percent_deg"].get<double>(), 8);
   EXPECT_EQ(r.report["lumen_boundary"]["parts"], 1);
@@ -81,14 +81,14 @@ void expect_sound(const Result& r, const DissectionModel& model) {
 }
 
 /// Share of the volume of a wall region whose place agrees with the body's own functions.
-double agreement(const Result& r, const DissectionModel& model, const std::string& name,
-                 const std::function<bool(const DissectionModel::Values&)>& belongs) {
+double agreement(const Result& r, const geometry::DissectionModel& model, const std::string& name,
+                 const std::function<bool(const geometry::DissectionModel::Values&)>& belongs) {
   double right = 0, all = 0;
   for (const auto& region : r.data.regions) {
     if (region.name != name) continue;
     for (auto e = region.first_element; e < region.end_element; ++e) {
       const auto& t = r.data.tetrahedra[e];
-      const Point& a = r.data.points[t[0]];
+      const geometry::Point& a = r.data.points[t[0]];
       const double volume = dot(r.data.points[t[1]] - a, cross(r.data.points[t[2]] - a, r.data.points[t[3]] - a)) / 6;
       all += volume;
       if (belongs(model.at(mesh::centroid(r.data.points, t)))) right += volume;
@@ -97,7 +97,7 @@ double agreement(const Result& r, const DissectionModel& model, const std::strin
   return right / all;
 }
 
-void expect_right_regions(const Result& r, const DissectionModel& model) {
+void expect_right_regions(const Result& r, const geometry::DissectionModel& model) {
   // The flap is near the sheet; walls are on their side of it, but for what lies about its edges and its tips.
   EXPECT_GT(agreement(r, model, "flap", [](const auto& v) { return v.flap < 0.3e-3; }), 0.97);
   EXPECT_GT(agreement(r, model, "false_lumen_wall", [](const auto& v) { return v.side < 2e-3; }), 0.97);
@@ -106,20 +106,20 @@ void expect_right_regions(const Result& r, const DissectionModel& model) {
 }
 
 TEST(DissectionMesh, MatchesTheBodyAtTwoSizes) {
-  const auto shape = config::parse_text(ParametricDissection::schema(),
+  const auto shape = config::parse_text(geometry::ParametricDissection::schema(),
                                         "{celiac: {}, superior_mesenteric: {}, left_renal: {}, right_renal: {}, "
                                         "iliacs: {}}")
                          .value;
-  const DissectionModel model(shape);
+  const geometry::DissectionModel model(shape);
   const Volumes exact = count_volumes(model);
-  const std::pair<Size, double> sizes[] = {{Coarse{}, 0.005}, {Medium{}, 0.005}};
+  const std::pair<case_file::Size, double> sizes[] = {{case_file::Coarse{}, 0.005}, {case_file::Medium{}, 0.005}};
   for (const auto& [size, tolerance] : sizes) {
     const auto r = make(shape, size);
     std::printf(
         "edge %.2f mm: %zu tetrahedra, lumen %.2f ml (exact %.2f), wall %.2f ml (exact %.2f), smallest "
         "dihedral %.2f\n",
-        edge_length(size) / mm, r.data.tetrahedra.size(), r.volumes.lumen, exact.lumen, r.volumes.wall, exact.wall,
-        r.report["shapes"]["smallest_dihedral_deg"].get<double>());
+        case_file::edge_length(size) / geometry::mm, r.data.tetrahedra.size(), r.volumes.lumen, exact.lumen,
+        r.volumes.wall, exact.wall, r.report["shapes"]["smallest_dihedral_deg"].get<double>());
     EXPECT_NEAR(r.volumes.lumen / exact.lumen, 1, tolerance);
     EXPECT_NEAR(r.volumes.wall / exact.wall, 1, tolerance);
     expect_sound(r, model);
@@ -128,53 +128,55 @@ TEST(DissectionMesh, MatchesTheBodyAtTwoSizes) {
 }
 
 TEST(DissectionMesh, TwoElementsThroughTheWallOnRequest) {
-  const ParametricDissection shape;
-  const auto one = make(shape, Coarse{}), two = make(shape, Coarse{}, 2);
+  const geometry::ParametricDissection shape;
+  const auto one = make(shape, case_file::Coarse{}), two = make(shape, case_file::Coarse{}, 2);
   EXPECT_GT(one.report["wall_one_element_thick_percent"].get<double>(), 50);
   EXPECT_EQ(two.report["wall_one_element_thick_percent"].get<double>(), 0);
   EXPECT_LT(two.data.tetrahedra.size(), 2 * one.data.tetrahedra.size());
-  expect_sound(two, DissectionModel(shape));
+  expect_sound(two, geometry::DissectionModel(shape));
 }
 
 /// Parameters drawn from wide ranges; not all are possible.
-ParametricDissection draw(std::mt19937& random) {
+geometry::ParametricDissection draw(std::mt19937& random) {
   const auto from = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const auto coin = [&] { return from(0, 1) < 0.5; };
-  ParametricDissection d;
+  geometry::ParametricDissection d;
   auto& a = d.aorta;
-  a.ascending_length = from(40, 80) * mm;
-  a.arch_bend_radius = from(33, 46) * mm;
-  a.arch_angle = from(160, 188) * degree;
-  a.arch_direction = from(20, 110) * degree;
-  a.descending_length = from(250, 330) * mm;
-  a.descending_bend = from(-25, 25) * degree;
-  a.ascending_radius = from(13, 18) * mm;
-  a.arch_radius = from(11, 15) * mm;
-  a.dissected_radius = from(13, 18) * mm;
-  a.abdominal_radius = from(8, 11) * mm;
-  a.wall_thickness = from(1.8, 3.2) * mm;
-  a.branch_fillet = from(2.5, 5) * mm;
+  a.ascending_length = from(40, 80) * geometry::mm;
+  a.arch_bend_radius = from(33, 46) * geometry::mm;
+  a.arch_angle = from(160, 188) * geometry::degree;
+  a.arch_direction = from(20, 110) * geometry::degree;
+  a.descending_length = from(250, 330) * geometry::mm;
+  a.descending_bend = from(-25, 25) * geometry::degree;
+  a.ascending_radius = from(13, 18) * geometry::mm;
+  a.arch_radius = from(11, 15) * geometry::mm;
+  a.dissected_radius = from(13, 18) * geometry::mm;
+  a.abdominal_radius = from(8, 11) * geometry::mm;
+  a.wall_thickness = from(1.8, 3.2) * geometry::mm;
+  a.branch_fillet = from(2.5, 5) * geometry::mm;
   auto& f = d.flap;
-  f.start = a.ascending_length + a.arch_bend_radius * a.arch_angle + from(-15, 10) * mm;
-  f.length = from(150, 220) * mm;
-  f.taper = from(26, 40) * mm;
-  f.thickness = from(1.2, 2.2) * mm;
-  f.false_lumen_wall_thickness = from(1, 1.8) * mm;
+  f.start = a.ascending_length + a.arch_bend_radius * a.arch_angle + from(-15, 10) * geometry::mm;
+  f.length = from(150, 220) * geometry::mm;
+  f.taper = from(26, 40) * geometry::mm;
+  f.thickness = from(1.2, 2.2) * geometry::mm;
+  f.false_lumen_wall_thickness = from(1, 1.8) * geometry::mm;
   f.turns = from(-0.8, 0.8);
-  f.true_lumen_direction = from(0, 360) * degree;
+  f.true_lumen_direction = from(0, 360) * geometry::degree;
   f.true_lumen_share = from(0.3, 0.65);
-  f.bow = from(-2, 4) * mm;
+  f.bow = from(-2, 4) * geometry::mm;
   f.rim_fillet = from(0.3, 0.5) * f.thickness;
-  f.corner_fillet = from(1, 3) * mm;
-  f.entry = {f.start + f.taper + from(12, 30) * mm, from(100, 260) * mm * mm, from(1, 2.2), from(-2, 2) * mm};
-  f.exit = {f.start + f.length - f.taper - from(12, 30) * mm, from(100, 260) * mm * mm, from(1, 2.2), from(-2, 2) * mm};
-  const auto vary = [&](BranchShape& b, double position) {
+  f.corner_fillet = from(1, 3) * geometry::mm;
+  f.entry = {f.start + f.taper + from(12, 30) * geometry::mm, from(100, 260) * geometry::mm * geometry::mm,
+             from(1, 2.2), from(-2, 2) * geometry::mm};
+  f.exit = {f.start + f.length - f.taper - from(12, 30) * geometry::mm, from(100, 260) * geometry::mm * geometry::mm,
+            from(1, 2.2), from(-2, 2) * geometry::mm};
+  const auto vary = [&](geometry::BranchShape& b, double position) {
     b.position = position;
-    b.angle += from(-25, 25) * degree;
-    b.inclination += from(-15, 15) * degree;
+    b.angle += from(-25, 25) * geometry::degree;
+    b.inclination += from(-15, 15) * geometry::degree;
     b.radius *= from(0.8, 1.25);
     b.wall_thickness *= from(0.85, 1.4);
-    b.length += from(0, 10) * mm;
+    b.length += from(0, 10) * geometry::mm;
   };
   const auto on_arch = [&](double share) {
     return a.ascending_length + (share + from(-0.02, 0.02)) * a.arch_bend_radius * a.arch_angle;
@@ -182,10 +184,12 @@ ParametricDissection draw(std::mt19937& random) {
   vary(d.brachiocephalic, on_arch(0.28));
   vary(d.left_common_carotid, on_arch(0.50));
   vary(d.left_subclavian, on_arch(0.70));
-  const auto usual = config::parse_text(ParametricDissection::schema(), "{celiac: {}, left_renal: {}}").value;
-  if (coin()) vary(d.celiac.emplace(*usual.celiac), f.start + f.length + from(14, 22) * mm);
-  if (coin()) vary(d.left_renal.emplace(*usual.left_renal), f.start + f.length + from(30, 50) * mm);
-  if (coin()) d.iliacs = IliacShape{from(22, 38) * degree, from(4.5, 6) * mm, from(40, 60) * mm, from(1, 1.6) * mm};
+  const auto usual = config::parse_text(geometry::ParametricDissection::schema(), "{celiac: {}, left_renal: {}}").value;
+  if (coin()) vary(d.celiac.emplace(*usual.celiac), f.start + f.length + from(14, 22) * geometry::mm);
+  if (coin()) vary(d.left_renal.emplace(*usual.left_renal), f.start + f.length + from(30, 50) * geometry::mm);
+  if (coin())
+    d.iliacs = geometry::IliacShape{from(22, 38) * geometry::degree, from(4.5, 6) * geometry::mm,
+                                    from(40, 60) * geometry::mm, from(1, 1.6) * geometry::mm};
   return d;
 }
 
@@ -197,7 +201,7 @@ TEST(DissectionMesh, RandomParametersGiveGoodMeshesOrAreRefused) {
   int refused = 0;
   for (int made = 0; made < wanted;) {
     const auto shape = draw(random);
-    const auto found = impossibilities(shape);
+    const auto found = geometry::impossibilities(shape);
     if (!found.errors.empty()) {
       ++refused;
       for (const auto& problem : found.errors) EXPECT_FALSE(problem.what.empty() || problem.remedy.empty());
@@ -205,9 +209,9 @@ TEST(DissectionMesh, RandomParametersGiveGoodMeshesOrAreRefused) {
       continue;
     }
     SCOPED_TRACE(made++);
-    const DissectionModel model(shape);
+    const geometry::DissectionModel model(shape);
     try {
-      const auto r = make(shape, 6 * mm);
+      const auto r = make(shape, 6 * geometry::mm);
       std::printf("%2d: %zu tetrahedra, smallest dihedral %.2f, %.1f s\n", made, r.data.tetrahedra.size(),
                   r.report["shapes"]["smallest_dihedral_deg"].get<double>(),
                   r.report["seconds"]["total"].get<double>());
@@ -222,4 +226,4 @@ TEST(DissectionMesh, RandomParametersGiveGoodMeshesOrAreRefused) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::stages

@@ -9,29 +9,29 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "tunica/stages/imaging/label_surface.hpp"
-#include "tunica/stages/imaging/synthetic_scan.hpp"
-#include "tunica/stages/meshing/dissection_model.hpp"
+#include "tunica/geometry/dissection_model.hpp"
+#include "tunica/geometry/triangle_tree.hpp"
+#include "tunica/imaging/label_surface.hpp"
+#include "tunica/imaging/synthetic_scan.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
-#include "tunica/stages/meshing/triangle_tree.hpp"
 
-namespace tunica::stages::imaging {
+namespace tunica::stages {
 namespace {
 
-using meshing::DissectionModel;
-using meshing::TriangleSurface;
-using meshing::TriangleTree;
+using geometry::DissectionModel;
+using geometry::TriangleSurface;
+using geometry::TriangleTree;
 
 /// Volume after each rim is closed by triangles to its centre [m^3].
 double closed_volume(TriangleSurface surface) {
-  for (const auto& loop : meshing::boundary_loops(surface)) {
-    Point centre{{0, 0, 0}};
+  for (const auto& loop : geometry::boundary_loops(surface)) {
+    imaging::Point centre{{0, 0, 0}};
     for (const auto p : loop) centre = centre + (1.0 / static_cast<double>(loop.size())) * surface.points[p];
     surface.points.push_back(centre);
     for (std::size_t i = 0; i < loop.size(); ++i)
       surface.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], std::ssize(surface.points) - 1});
   }
-  return meshing::enclosed_volume(surface);
+  return geometry::enclosed_volume(surface);
 }
 
 /// Of the body itself, by counting points [m^3].
@@ -54,7 +54,7 @@ Deviations thickness_deviations(const DissectionModel& model, const TriangleTree
   std::mt19937 random(3);
   const auto box = model.box();
   const auto from = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-  const auto reach = [&](const Point& start, const Vec3<double>& direction, const auto& in_lumen) {
+  const auto reach = [&](const imaging::Point& start, const Vec3<double>& direction, const auto& in_lumen) {
     double low = 0, high = 1.5 * thickness;
     for (int i = 0; i < 14; ++i) {
       const double middle = 0.5 * (low + high);
@@ -64,12 +64,13 @@ Deviations thickness_deviations(const DissectionModel& model, const TriangleTree
   };
   std::vector<double> off;
   while (off.size() < 2000) {
-    const Point p{{from(box.low[0], box.high[0]), from(box.low[1], box.high[1]), from(box.low[2], box.high[2])}};
+    const imaging::Point p{
+        {from(box.low[0], box.high[0]), from(box.low[1], box.high[1]), from(box.low[2], box.high[2])}};
     const auto v = model.at(p);
     if (v.flap > -0.3 * thickness || v.tear < 4e-3 || std::abs(v.side) > 0.3e-3) continue;
     Vec3<double> n;
     for (int d = 0; d < 3; ++d) {
-      Point ahead = p, behind = p;
+      imaging::Point ahead = p, behind = p;
       ahead[d] += 1e-5;
       behind[d] -= 1e-5;
       n[d] = model.at(ahead).side - model.at(behind).side;
@@ -77,8 +78,8 @@ Deviations thickness_deviations(const DissectionModel& model, const TriangleTree
     n = (1 / norm(n)) * n;
     const auto wet = [&](double way) { return model.at(p + way * n).lumen < -0.5 * thickness; };
     if (!wet(1.5 * thickness) || !wet(-1.5 * thickness)) continue;  // lumen on both sides, away from the corners
-    const auto found = [&](const Point& x) { return surface.contains(x); };
-    const auto true_one = [&](const Point& x) { return model.at(x).lumen < 0; };
+    const auto found = [&](const imaging::Point& x) { return surface.contains(x); };
+    const auto true_one = [&](const imaging::Point& x) { return model.at(x).lumen < 0; };
     off.push_back(reach(p, n, found) + reach(p, -1.0 * n, found) - reach(p, n, true_one) -
                   reach(p, -1.0 * n, true_one));
   }
@@ -90,13 +91,13 @@ Deviations thickness_deviations(const DissectionModel& model, const TriangleTree
 }
 
 /// Area of lumen in the middle sheet of the flap around a tear, over that of the body.
-double tear_ratio(const DissectionModel& model, const TriangleTree& surface, const Point& centre) {
+double tear_ratio(const DissectionModel& model, const TriangleTree& surface, const imaging::Point& centre) {
   const double h = 0.3e-3, half_width = 18e-3;
   double found = 0, exact = 0;
   for (double x = -half_width; x < half_width; x += h)
     for (double y = -half_width; y < half_width; y += h)
       for (double z = -half_width; z < half_width; z += h) {
-        const Point p = centre + Vec3<double>{{x, y, z}};
+        const imaging::Point p = centre + Vec3<double>{{x, y, z}};
         const auto v = model.at(p);
         if (std::abs(v.side) > 0.4e-3 || v.tear > 6e-3) continue;
         exact += v.lumen < 0;
@@ -105,7 +106,7 @@ double tear_ratio(const DissectionModel& model, const TriangleTree& surface, con
   return found / exact;
 }
 
-double rim_area(const TriangleSurface& surface, const meshing::Loop& loop, const Point& centre) {
+double rim_area(const TriangleSurface& surface, const geometry::Loop& loop, const imaging::Point& centre) {
   Vec3<double> sum{{0, 0, 0}};
   for (std::size_t i = 0; i < loop.size(); ++i)
     sum = sum + 0.5 * cross(surface.points[loop[i]] - centre, surface.points[loop[(i + 1) % loop.size()]] - centre);
@@ -113,8 +114,8 @@ double rim_area(const TriangleSurface& surface, const meshing::Loop& loop, const
 }
 
 /// Vessel ends are where they are in the body, as steep and as wide: the scanner's blur has not rounded them.
-void expect_openings(const LabelSurface& result, const DissectionModel& model) {
-  const auto loops = meshing::boundary_loops(result.lumen);
+void expect_openings(const imaging::LabelSurface& result, const DissectionModel& model) {
+  const auto loops = geometry::boundary_loops(result.lumen);
   ASSERT_EQ(loops.size(), model.openings().size());
   for (const auto& o : model.openings()) {
     const auto& end = *std::min_element(result.ends.begin(), result.ends.end(), [&](const auto& a, const auto& b) {
@@ -129,10 +130,11 @@ void expect_openings(const LabelSurface& result, const DissectionModel& model) {
   }
 }
 
-void expect_true(const ScanSettings& settings, const meshing::ParametricDissection& shape) {
+void expect_true(const imaging::ScanSettings& settings, const geometry::ParametricDissection& shape) {
   const DissectionModel model(shape);
-  const auto result = surface_of(scan(model, settings), {.labels = {scan_true_lumen, scan_false_lumen}},
-                                 [](const std::string& line) { std::printf("%s\n", line.c_str()); });
+  const auto result = imaging::surface_of(imaging::scan(model, settings),
+                                          {.labels = {imaging::scan_true_lumen, imaging::scan_false_lumen}},
+                                          [](const std::string& line) { std::printf("%s\n", line.c_str()); });
   const TriangleTree tree(result.lumen);
   const double volume = closed_volume(result.lumen) / lumen_volume(model);
   const auto thickness = thickness_deviations(model, tree, shape.flap.thickness);
@@ -149,9 +151,9 @@ void expect_true(const ScanSettings& settings, const meshing::ParametricDissecti
   EXPECT_NEAR(thickness.median, 0, 0.06e-3);
   EXPECT_LT(thickness.largest_of_95_percent, 0.2e-3);
 
-  const auto part = meshing::components(result.lumen);
+  const auto part = geometry::components(result.lumen);
   EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
-  EXPECT_EQ(meshing::genus(result.lumen, std::ssize(result.ends)), 1);  // two tears, and no hole in the flap
+  EXPECT_EQ(geometry::genus(result.lumen, std::ssize(result.ends)), 1);  // two tears, and no hole in the flap
   expect_openings(result, model);
 }
 
@@ -159,29 +161,29 @@ TEST(LabelledImage, GivesVolumeFlapAndTearsOfTheDissection) { expect_true({}, {}
 
 /// A tube with a flap about its middle, both ends of which are free. Planes lie between the voxels.
 constexpr double tube_radius = 9e-3, tube_half = 30.1e-3, flap_half_length = 11.9e-3, flap_half = 1.4e-3;
-int tube_with_flap(const Point& p) {
+int tube_with_flap(const imaging::Point& p) {
   if (std::hypot(p[0], p[1]) > tube_radius || std::abs(p[2]) > tube_half) return 0;
-  if (std::abs(p[2]) > flap_half_length) return scan_true_lumen;
-  return std::abs(p[0]) < flap_half ? 0 : p[0] > 0 ? scan_true_lumen : scan_false_lumen;
+  if (std::abs(p[2]) > flap_half_length) return imaging::scan_true_lumen;
+  return std::abs(p[0]) < flap_half ? 0 : p[0] > 0 ? imaging::scan_true_lumen : imaging::scan_false_lumen;
 }
 
 TEST(LabelledImage, BecomesAMeshWithAGrownWall) {
-  LabelImage image{{{40, 40, 100}, {{-13.65e-3, -13.65e-3, -34.65e-3}}, {}}, {}};
+  imaging::LabelImage image{{{40, 40, 100}, {{-13.65e-3, -13.65e-3, -34.65e-3}}, {}}, {}};
   for (int d = 0; d < 3; ++d) image.frame.steps[d][d] = 0.7e-3;
   for (std::int64_t i = 0; i < image.frame.count(); ++i)
     image.labels.push_back(static_cast<std::int16_t>(tube_with_flap(image.frame.place(image.frame.voxel(i)))));
   const auto file = std::filesystem::temp_directory_path() / ("tunica_flap_" + std::to_string(::getpid()) + ".nrrd");
-  write_label_image(image, file);
-  meshing::MeshCase mesh_case;
-  ImageGeometry geometry;
+  imaging::write_label_image(image, file);
+  case_file::MeshCase mesh_case;
+  meshing::ImageGeometry geometry;
   geometry.file = file;
-  geometry.surface.labels = {scan_true_lumen, scan_false_lumen};
+  geometry.surface.labels = {imaging::scan_true_lumen, imaging::scan_false_lumen};
   geometry.surface.openings = {{"in", {{{0, 0, -tube_half}}, {}}}, {"out", {{{0, 0, tube_half}}, {}}}};
   geometry.aorta_ends = {"out"};
   geometry.wall.thinnest = geometry.wall.thickest = 1.5e-3;
   mesh_case.geometry = geometry;
   mesh_case.size = 3e-3;
-  const auto made = meshing::make_mesh(mesh_case, [](const std::string&) {});
+  const auto made = make_mesh(mesh_case, [](const std::string&) {});
   std::filesystem::remove(file);
 
   const auto report = nlohmann::json::parse(made.report_json);
@@ -203,4 +205,4 @@ TEST(LabelledImage, BecomesAMeshWithAGrownWall) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::imaging
+}  // namespace tunica::stages

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tunica/stages/meshing/grown_wall.hpp"
+#include "tunica/geometry/surface_file.hpp"
+#include "tunica/geometry/surface_mending.hpp"
+#include "tunica/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
-#include "tunica/stages/meshing/surface_file.hpp"
-#include "tunica/stages/meshing/surface_mending.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::stages {
 namespace {
 
 const std::filesystem::path folder = std::filesystem::path(TUNICA_SHARED_DATA) / "tbad_patient";
@@ -25,14 +25,15 @@ class Patient : public testing::Test {
   }
 };
 
-PatientSurfaces read() {
-  return {read_surface(folder / "lumen_surface.vtp", 1e-3), read_surface(folder / "outer_wall_surface.vtp", 1e-3),
-          read_opening_names(folder / "openings.csv", 1e-3)};
+meshing::PatientSurfaces read() {
+  return {geometry::read_surface(folder / "lumen_surface.vtp", 1e-3),
+          geometry::read_surface(folder / "outer_wall_surface.vtp", 1e-3),
+          geometry::read_opening_names(folder / "openings.csv", 1e-3)};
 }
 
 /// Largest distance of the points and triangle centres of `from` to `to`.
-double distance(const TriangleSurface& from, const TriangleSurface& to) {
-  const TriangleTree tree(to);
+double distance(const geometry::TriangleSurface& from, const geometry::TriangleSurface& to) {
+  const geometry::TriangleTree tree(to);
   double largest = 0;
   for (const auto& p : from.points) largest = std::max(largest, tree.nearest(p).distance);
   for (const auto& t : from.triangles)
@@ -41,7 +42,7 @@ double distance(const TriangleSurface& from, const TriangleSurface& to) {
   return largest;
 }
 
-double hausdorff(const TriangleSurface& a, const TriangleSurface& b) {
+double hausdorff(const geometry::TriangleSurface& a, const geometry::TriangleSurface& b) {
   return std::max(distance(a, b), distance(b, a));
 }
 
@@ -55,26 +56,26 @@ std::string spread(std::vector<double> values) {
 }
 
 /// Of the files themselves, so that what mending and flattening do counts, too.
-TriangleSurface face(const mesh::MeshData& data, const std::string& name) {
+geometry::TriangleSurface face(const mesh::MeshData& data, const std::string& name) {
   for (const auto& f : data.faces)
     if (f.name == name) {
-      TriangleSurface surface{data.points, {f.triangles.begin(), f.triangles.end()}};
-      drop_unused_points(surface);
+      geometry::TriangleSurface surface{data.points, {f.triangles.begin(), f.triangles.end()}};
+      geometry::drop_unused_points(surface);
       return surface;
     }
   throw std::runtime_error("no face " + name);
 }
 
 TEST_F(Patient, MeshKeepsVolumesShapeAndTopology) {
-  MeshCase mesh_case;
-  mesh_case.geometry = SurfaceFiles{.lumen = folder / "lumen_surface.vtp",
-                                    .false_lumen = {},
-                                    .outer_wall = folder / "outer_wall_surface.vtp",
-                                    .openings = folder / "openings.csv",
-                                    .metres_per_unit = 1e-3,
-                                    .roles = {},
-                                    .wall = {}};
-  mesh_case.size = Medium{};
+  case_file::MeshCase mesh_case;
+  mesh_case.geometry = meshing::SurfaceFiles{.lumen = folder / "lumen_surface.vtp",
+                                             .false_lumen = {},
+                                             .outer_wall = folder / "outer_wall_surface.vtp",
+                                             .openings = folder / "openings.csv",
+                                             .metres_per_unit = 1e-3,
+                                             .roles = {},
+                                             .wall = {}};
+  mesh_case.size = case_file::Medium{};
   const auto made = make_mesh(mesh_case, [](const std::string& line) { fmt::print("{}\n", line); });
   fmt::print("{}\n", made.report_text);
   const auto report = nlohmann::json::parse(made.report_json);
@@ -108,17 +109,17 @@ TEST_F(Patient, MeshKeepsVolumesShapeAndTopology) {
 TEST_F(Patient, GrownWallIsNearTheGivenOne) {
   const auto surfaces = read();
   const auto start = std::chrono::steady_clock::now();
-  GrowthSettings growth;
+  meshing::GrowthSettings growth;
   growth.thinnest = growth.thickest = 2e-3;  // the given wall is 2 mm thick nearly everywhere
   growth.spacing = 0.8e-3;
-  ComplexOptions options;
+  meshing::ComplexOptions options;
   options.sizes.largest = 3e-3;
   options.log = [](const std::string& line) { fmt::print("{}\n", line); };
-  const auto grown = with_grown_wall(surfaces.lumen, surfaces.names, growth, {}, options);
-  const auto prepared = patient_complex(grown, options);
+  const auto grown = meshing::with_grown_wall(surfaces.lumen, surfaces.names, growth, {}, options);
+  const auto prepared = meshing::patient_complex(grown, options);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
-  const TriangleTree outer(*grown.outer);
+  const geometry::TriangleTree outer(*grown.outer);
   std::vector<double> distances;
   for (const auto& p : surfaces.outer->points) distances.push_back(outer.nearest(p).distance);
   std::vector<double> wall;
@@ -128,8 +129,8 @@ TEST_F(Patient, GrownWallIsNearTheGivenOne) {
   fmt::print("{:.1f} s; distance of the given outer surface, 5 / 50 / 95 %: {} mm; thickness of the grown wall {} mm\n",
              seconds.count(), spread(distances), spread(wall));
 
-  EXPECT_NO_THROW(verify(prepared.complex));
-  EXPECT_NEAR(1e6 * volume(prepared.complex, Label::lumen), 348.4, 0.005 * 348.4);
+  EXPECT_NO_THROW(meshing::verify(prepared.complex));
+  EXPECT_NEAR(1e6 * meshing::volume(prepared.complex, meshing::Label::lumen), 348.4, 0.005 * 348.4);
   std::nth_element(distances.begin(), distances.begin() + std::ssize(distances) / 2, distances.end());
   EXPECT_LT(distances[distances.size() / 2], 0.1e-3);
   std::nth_element(wall.begin(), wall.begin() + std::ssize(wall) / 2, wall.end());
@@ -137,4 +138,4 @@ TEST_F(Patient, GrownWallIsNearTheGivenOne) {
 }
 
 }  // namespace
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::stages

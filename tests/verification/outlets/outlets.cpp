@@ -67,7 +67,7 @@ TEST(Outlets, WindkesselFollowsItsClosedForm) {
   for (const double p : table["P_dyn_cm2"]) largest = std::max(largest, 0.1 * p);
 
   const FlowTable flow;
-  const auto mesh = mesh::distribute(tube_data(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(tube_data(), MPI_COMM_WORLD);
   auto input = with_outlet(
       bc::Flow{.course = flow.waveform()},
       bc::Rcr{.proximal = proximal, .capacitance = capacitance, .distal = distal, .initial_pressure = start_pressure});
@@ -102,7 +102,7 @@ TEST(Outlets, WindkesselFollowsItsClosedForm) {
 TEST(Outlets, ResistanceHoldsItsPressure) {
   constexpr double resistance = 1.2e8, level = 1000;
   const FlowTable flow;
-  const auto mesh = mesh::distribute(tube_data(), MPI_COMM_WORLD);
+  const auto mesh = distributed::distribute(tube_data(), MPI_COMM_WORLD);
   const auto input = with_outlet(bc::Flow{.course = flow.waveform()},
                                  bc::Resistance{.resistance = resistance, .distal_pressure = level});
   coupling::Problem problem(mesh, input);
@@ -126,7 +126,7 @@ struct Result {
 
 Result run_on(MPI_Comm comm, const bc::WaveformInput& flow) {
   const auto data = tube_data();
-  const auto mesh = mesh::distribute(data, comm);
+  const auto mesh = distributed::distribute(data, comm);
   auto input = with_outlet(
       bc::Flow{.course = flow},
       bc::Rcr{.proximal = proximal, .capacitance = capacitance, .distal = distal, .initial_pressure = 4000});

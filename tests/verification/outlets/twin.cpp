@@ -1,5 +1,5 @@
 // The 0D twin of the outlets against the impedance of its elements, and the search for its resistance and compliance.
-#include "tunica/stages/tuning/twin.hpp"
+#include "tunica/zerod/twin.hpp"
 
 #include <cmath>
 #include <complex>
@@ -27,23 +27,23 @@ bc::Waveform raised_cosine() {
   return bc::Waveform::table(table, {.interpolation = bc::Interpolation::spline});
 }
 
-stages::TuningCase two_outlets() {
-  stages::TuningCase outlets;
+case_file::TuningCase two_outlets() {
+  case_file::TuningCase outlets;
   outlets.systolic = 125 * mmHg;
   outlets.diastolic = 75 * mmHg;
   outlets.fractions = {{"a", 0.3}, {"b", 0.7}};
   return outlets;
 }
 
-const stages::Totals totals{.resistance = 1.5e8, .compliance = 9e-9};
-const stages::Vessel soft{2e-9, {{2e6, 1.2e5}, {1e6, 0.5e5}}};
+const zerod::Totals totals{.resistance = 1.5e8, .compliance = 9e-9};
+const zerod::Vessel soft{2e-9, {{2e6, 1.2e5}, {1e6, 0.5e5}}};
 
 Complex impedance(const bc::Rcr& o, double w) {
   return o.proximal + o.distal / Complex(1, w * o.distal * o.capacitance);
 }
 
 /// Amplitude of the pressure at the inlet for an inflow of 1 m^3/s at the frequency w.
-Complex inlet_impedance(const stages::Vessel& vessel, const std::vector<bc::Rcr>& outlets, double w) {
+Complex inlet_impedance(const zerod::Vessel& vessel, const std::vector<bc::Rcr>& outlets, double w) {
   Complex admittance(0, w * vessel.compliance);
   for (std::size_t i = 0; i < outlets.size(); ++i)
     admittance +=
@@ -52,7 +52,7 @@ Complex inlet_impedance(const stages::Vessel& vessel, const std::vector<bc::Rcr>
 }
 
 TEST(Twin, TotalsAreSharedOut) {
-  const auto o = stages::share_out(two_outlets(), totals);
+  const auto o = zerod::share_out(two_outlets().flow_split(), totals);
   EXPECT_NEAR(1 / (1 / (o[0].proximal + o[0].distal) + 1 / (o[1].proximal + o[1].distal)), totals.resistance, 1e-6);
   EXPECT_NEAR(o[0].capacitance + o[1].capacitance, totals.compliance, 1e-20);
   EXPECT_NEAR((o[1].proximal + o[1].distal) / (o[0].proximal + o[0].distal), 0.3 / 0.7, 1e-12);
@@ -61,9 +61,9 @@ TEST(Twin, TotalsAreSharedOut) {
 }
 
 TEST(Twin, PeriodicStateIsThatOfTheImpedances) {
-  for (const auto& vessel : {stages::Vessel{0, {{0, 0}, {0, 0}}}, soft}) {
-    const auto outlets = stages::share_out(two_outlets(), totals);
-    const auto cycle = stages::Twin(vessel, outlets, raised_cosine(), beat).periodic_cycle();
+  for (const auto& vessel : {zerod::Vessel{0, {{0, 0}, {0, 0}}}, soft}) {
+    const auto outlets = zerod::share_out(two_outlets().flow_split(), totals);
+    const auto cycle = zerod::Twin(vessel, outlets, raised_cosine(), beat).periodic_cycle();
     const Complex z0 = inlet_impedance(vessel, outlets, 0), z1 = inlet_impedance(vessel, outlets, omega_beat);
     double worst = 0, largest = 0;
     for (std::size_t k = 0; k < cycle.times.size(); ++k) {
@@ -75,7 +75,7 @@ TEST(Twin, PeriodicStateIsThatOfTheImpedances) {
         worst / largest);
     EXPECT_LT(worst / largest, 2e-5);
     // A second cycle from its end is the same: it is periodic.
-    const auto again = stages::Twin(vessel, outlets, raised_cosine(), beat).first_cycle(cycle.end);
+    const auto again = zerod::Twin(vessel, outlets, raised_cosine(), beat).first_cycle(cycle.end);
     EXPECT_NEAR(again.end.stored[0], cycle.end.stored[0], 1e-4 * cycle.end.stored[0]);
   }
 }
@@ -93,7 +93,7 @@ TEST(Twin, FollowsTheClosedFormOfOneWindkessel) {
   inflow.values.back() = inflow.values.front();
   const bc::Rcr rcr{.proximal = 121e5, .capacitance = 1e-9, .distal = 1212e5};
   const auto cycle =
-      stages::Twin({0, {{0, 0}}}, {rcr}, bc::Waveform::table(inflow, {.interpolation = bc::Interpolation::spline}), 1.0)
+      zerod::Twin({0, {{0, 0}}}, {rcr}, bc::Waveform::table(inflow, {.interpolation = bc::Interpolation::spline}), 1.0)
           .periodic_cycle();
   double worst = 0, largest = 0;
   for (std::size_t row = 1; row + 1 < table["t"].size(); ++row) {
@@ -108,7 +108,7 @@ TEST(Twin, FollowsTheClosedFormOfOneWindkessel) {
 // A cycle that starts from steady flow dips where the inflow jumps to that of the end of diastole.
 TEST(Twin, TheDipAtTheStartIsNotTheDiastolicPressure) {
   const auto cycle =
-      stages::Twin(soft, stages::share_out(two_outlets(), totals), raised_cosine(), beat).periodic_cycle();
+      zerod::Twin(soft, zerod::share_out(two_outlets().flow_split(), totals), raised_cosine(), beat).periodic_cycle();
   stages::TuningCycle tuning;
   tuning.first = tuning.periodic = cycle;
   for (std::size_t k = 0; k < cycle.times.size(); ++k) {
@@ -116,7 +116,7 @@ TEST(Twin, TheDipAtTheStartIsNotTheDiastolicPressure) {
     tuning.run.durations.push_back(beat / static_cast<double>(cycle.times.size()));
     tuning.run.inlet_pressure.push_back(cycle.pressure[k] - 20 * mmHg * std::exp(-cycle.times[k] / 0.02));
   }
-  const stages::Pressures periodic = stages::pressures(cycle), foreseen = tuning.foreseen();
+  const zerod::Pressures periodic = zerod::pressures(cycle), foreseen = tuning.foreseen();
   EXPECT_LT(tuning.run.inlet_pressure.front(), periodic.diastolic - 10 * mmHg);
   EXPECT_NEAR(foreseen.diastolic, periodic.diastolic, 1e-9 * periodic.diastolic);
   EXPECT_NEAR(foreseen.systolic, periodic.systolic, 1e-9 * periodic.systolic);
@@ -124,10 +124,11 @@ TEST(Twin, TheDipAtTheStartIsNotTheDiastolicPressure) {
 
 TEST(Twin, TotalsMeetTheTargets) {
   const auto asked = two_outlets();
-  for (const auto& vessel : {stages::Vessel{0, {{0, 0}, {0, 0}}}, soft}) {
-    const auto found = stages::find_totals(asked, vessel, raised_cosine(), beat, asked.systolic, asked.diastolic);
-    const auto p = stages::pressures(
-        stages::Twin(vessel, stages::share_out(asked, found), raised_cosine(), beat).periodic_cycle());
+  for (const auto& vessel : {zerod::Vessel{0, {{0, 0}, {0, 0}}}, soft}) {
+    const auto found =
+        zerod::find_totals(asked.flow_split(), vessel, raised_cosine(), beat, asked.systolic, asked.diastolic);
+    const auto p = zerod::pressures(
+        zerod::Twin(vessel, zerod::share_out(asked.flow_split(), found), raised_cosine(), beat).periodic_cycle());
     say("  R_T %.4e Pa s/m^3, C_T %.4e m^3/Pa: %.4f/%.4f mmHg, mean %.2f\n", found.resistance, found.compliance,
         p.systolic / mmHg, p.diastolic / mmHg, p.mean / mmHg);
     EXPECT_NEAR(p.systolic, asked.systolic, 1e-5 * asked.systolic);
@@ -141,7 +142,8 @@ TEST(Twin, SaysThatTargetsAreOutOfReach) {
   asked.distal_share = 0.5;
   asked.systolic = 80 * mmHg;
   try {
-    stages::find_totals(asked, {0, {{0, 0}, {0, 0}}}, raised_cosine(), beat, asked.systolic, asked.diastolic);
+    zerod::find_totals(asked.flow_split(), {0, {{0, 0}, {0, 0}}}, raised_cosine(), beat, asked.systolic,
+                       asked.diastolic);
     FAIL() << "totals were found";
   } catch (const SolverError& error) {
     EXPECT_NE(std::string(error.what()).find("distal_share"), std::string::npos) << error.what();

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "run_and_post.hpp"
-#include "tunica/stages/csv_file.hpp"
+#include "tunica/files/csv_file.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "verification/fluid/flow_case.hpp"
 
@@ -16,11 +16,11 @@ constexpr const char* outlets[] = {"brachiocephalic", "left_common_carotid", "le
 
 void make_mesh(const test::SharedFolder& folder) {
   parallel::on_root(MPI_COMM_WORLD, [&] {
-    stages::meshing::MeshCase c;
-    c.geometry = config::parse_text(stages::meshing::ParametricDissection::schema(), "{}").value;
-    c.size = stages::meshing::Coarse{};
+    case_file::MeshCase c;
+    c.geometry = config::parse_text(geometry::ParametricDissection::schema(), "{}").value;
+    c.size = case_file::Coarse{};
     c.output = folder.path() / "mesh";
-    stages::meshing::mesh_to_files(c, false, [](const std::string&) {});
+    stages::mesh_to_files(c, false, [](const std::string&) {});
   });
 }
 
@@ -57,8 +57,8 @@ TEST(PostDissection, LumensTearsAndMass) {
   EXPECT_LT(balance["largest_residual_of_largest_flow"].get<double>(), 0.1);
 
   // Both lumens together are the lumen, whose volume the run writes from its own elements.
-  const auto tears = stages::read_csv(post / "tears.csv", ""),
-             history = stages::read_csv(folder.path() / "results/balance.csv", "");
+  const auto tears = files::read_csv(post / "tears.csv", ""),
+             history = files::read_csv(folder.path() / "results/balance.csv", "");
   const auto &in_false = tears.column("false lumen volume [ml]"), &in_true = tears.column("true lumen volume [ml]");
   const double total = in_false.back() + in_true.back(), lumen = 1e-3 * history.column("lumen volume [mm^3]").back();
   say("  false lumen %.2f ml, true lumen %.2f ml; both %.4f ml, the run had %.4f ml\n", in_false.back(), in_true.back(),

@@ -7,7 +7,7 @@
 
 #include "shared_folder.hpp"
 #include "tunica/stages/post/post.hpp"
-#include "tunica/stages/run.hpp"
+#include "tunica/stages/run/run.hpp"
 
 namespace tunica::verification {
 

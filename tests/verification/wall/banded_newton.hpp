@@ -11,7 +11,7 @@ namespace tunica::verification {
 /// Newton's method on one rank; `held[3 node + direction]` stays zero, the face `loaded` carries a follower pressure.
 class BandedNewton {
  public:
-  BandedNewton(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters, std::vector<char> held)
+  BandedNewton(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters, std::vector<char> held)
       : mesh_(mesh),
         model_(mesh, parameters),
         held_(std::move(held)),
@@ -99,7 +99,7 @@ class BandedNewton {
     }
   }
 
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   coupling::WallModel model_;
   std::vector<char> held_;
   std::size_t n_, band_ = 0;

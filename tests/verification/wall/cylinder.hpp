@@ -27,7 +27,8 @@ inline std::vector<std::pair<std::string, bc::Condition>> plane_strain(const bc:
 }
 
 /// Mean radial displacement of the nodes of a face [m].
-inline double radial_displacement(const mesh::DistributedMesh& mesh, const State& state, const std::string& face) {
+inline double radial_displacement(const distributed::DistributedMesh& mesh, const State& state,
+                                  const std::string& face) {
   std::vector<char> seen(mesh.nodes(), 0);
   double sums[2] = {};
   for (const auto& triangle : mesh.face(face).triangles)
@@ -49,8 +50,8 @@ struct WallStress {
 };
 
 /// Stresses at the inner face from a least-squares parabola in the deformed radius through the element stresses.
-inline WallStress wall_stress(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
-                              double inner_radius) {
+inline WallStress wall_stress(const distributed::DistributedMesh& mesh, const coupling::WallModel& model,
+                              const State& state, double inner_radius) {
   struct Sample {
     double r, hoop, radial;
   };

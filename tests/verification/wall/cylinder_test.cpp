@@ -19,7 +19,7 @@ struct Solution {
   coupling::StepReport last;
 };
 
-double scatter(const mesh::DistributedMesh& mesh, const State& state, const std::string& face, double mean) {
+double scatter(const distributed::DistributedMesh& mesh, const State& state, const std::string& face, double mean) {
   double result = 0;
   for (const auto& triangle : mesh.face(face).triangles)
     for (const auto i : triangle) {
@@ -50,7 +50,7 @@ Solution inflate(const SolidCase& c, int radial, int steps, const bc::Condition&
 
 /// The displacement element by elimination, each rank for itself.
 Solution inflate_directly(double shear_modulus, double nu, int radial, int steps, double pressure) {
-  const auto mesh = mesh::distribute(mesh::thick_cylinder(sizes(radial), mesh::Sector::quarter), MPI_COMM_SELF);
+  const auto mesh = distributed::distribute(mesh::thick_cylinder(sizes(radial), mesh::Sector::quarter), MPI_COMM_SELF);
   const auto in = solid_input({Element::displacement, shear_modulus, nu}, {});
   std::vector<char> fixed(3 * static_cast<std::size_t>(mesh.nodes()), 0);
   const auto hold = [&](const char* face, int direction) {

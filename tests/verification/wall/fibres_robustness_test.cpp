@@ -75,7 +75,7 @@ void march(const char* path, const Stiffness& s, Problem& problem) {
   march(path, s, problem, [](State&, double) {});
 }
 
-mesh::DistributedMesh cube() { return share(mesh::box(3, 3, 3, {{side, side, side}}, mesh::RegionKind::wall)); }
+distributed::DistributedMesh cube() { return share(mesh::box(3, 3, 3, {{side, side, side}}, mesh::RegionKind::wall)); }
 
 TEST(FibreRobustness, UniaxialTensionOfAHundredKilopascal) {
   for (const auto& s : stiffnesses) {

@@ -159,7 +159,7 @@ TEST(FibreTube, NewtonConvergesQuadraticallyAtTheSwitchAndAwayFromIt) {
 
 /// Displacement element by elimination: the locked tangent is beyond the iterative solver. `held_in` names faces and
 /// the direction in which they are held.
-State solve_directly(const mesh::DistributedMesh& mesh, const wall::Parameters& parameters,
+State solve_directly(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters,
                      const std::vector<std::pair<const char*, int>>& held_in, const char* loaded, double pressure) {
   std::vector<char> fixed(3 * static_cast<std::size_t>(mesh.nodes()), 0);
   for (const auto& [face, direction] : held_in)
@@ -196,7 +196,7 @@ TEST(FibreTube, LockingOfTheDisplacementElement) {
     State state = problem.initial_state();
     load(problem, state, 5);
     const double mixed = radial_displacement(mesh, state, "wall_inner") / (a - A) - 1.0;
-    const auto own = mesh::distribute(mesh::thick_cylinder(sections, mesh::Sector::quarter), MPI_COMM_SELF);
+    const auto own = distributed::distribute(mesh::thick_cylinder(sections, mesh::Sector::quarter), MPI_COMM_SELF);
     wall::Parameters parameters = *in.wall;
     parameters.element = Element::displacement;
     const State direct =
@@ -216,7 +216,7 @@ TEST(FibreTube, LockingOfTheDisplacementElement) {
 /// A cube between clamps pulled by 60 kPa: mean elongation, with the mixed element on a finer mesh as the reference.
 TEST(FibreCube, LockingOfTheDisplacementElement) {
   constexpr double side = 0.01, tension = 6e4;
-  const auto elongation = [&](const mesh::DistributedMesh& mesh, const State& state) {
+  const auto elongation = [&](const distributed::DistributedMesh& mesh, const State& state) {
     double sums[2] = {};
     for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
       if (mesh.points[i][0] > 0.999 * side) sums[0] += state.displacement[at(i)], sums[1] += 1;
@@ -246,7 +246,8 @@ TEST(FibreCube, LockingOfTheDisplacementElement) {
       "displacement\n");
   for (const double nu : {0.49, 0.499, 0.4999}) {
     const double reference = solve(8, nu), mixed = solve(4, nu) / reference - 1.0;
-    const auto own = mesh::distribute(mesh::box(4, 4, 4, {{side, side, side}}, mesh::RegionKind::wall), MPI_COMM_SELF);
+    const auto own =
+        distributed::distribute(mesh::box(4, 4, 4, {{side, side, side}}, mesh::RegionKind::wall), MPI_COMM_SELF);
     wall::Parameters parameters = *input(nu).wall;
     parameters.element = Element::displacement;
     const State direct = solve_directly(own, parameters, {{"x_min", 0}, {"x_min", 1}, {"x_min", 2}}, "x_max", -tension);

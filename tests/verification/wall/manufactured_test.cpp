@@ -122,7 +122,7 @@ Vec3<double> point(const Vec3<double>* X, const double* barycentric, int corners
 }
 
 template <class Motion>
-std::vector<double> nodal_forces(const mesh::DistributedMesh& mesh, const Motion& motion,
+std::vector<double> nodal_forces(const distributed::DistributedMesh& mesh, const Motion& motion,
                                  const wall::Volumetric& volumetric) {
   std::vector<double> forces(at(mesh.nodes()), 0.0);
   const auto add = [&](std::int32_t node, double factor, const Vec3<double>& f) {

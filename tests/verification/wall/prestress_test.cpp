@@ -27,7 +27,8 @@ struct Prestressed {
 };
 
 /// Over the thickness: with the weight 1/r a volume integral is one over the radius.
-double mean_hoop_stress(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state) {
+double mean_hoop_stress(const distributed::DistributedMesh& mesh, const coupling::WallModel& model,
+                        const State& state) {
   double sums[2] = {};
   for_each_element(mesh, model, state, [&](const ElementData& e) {
     const Vec3<double> x = 0.25 * ((e.X[0] + e.X[1]) + (e.X[2] + e.X[3]));

@@ -73,13 +73,13 @@ inline bc::Fixed held(bool x, bool y, bool z) {
   return fixed;
 }
 
-inline mesh::DistributedMesh share(const mesh::MeshData& data) {
-  return mesh::distribute(parallel::rank(MPI_COMM_WORLD) == 0 ? data : mesh::MeshData{}, MPI_COMM_WORLD);
+inline distributed::DistributedMesh share(const mesh::MeshData& data) {
+  return distributed::distribute(parallel::rank(MPI_COMM_WORLD) == 0 ? data : mesh::MeshData{}, MPI_COMM_WORLD);
 }
 
 /// u(X) at every node. Where the boundary is held it stays, so this prescribes boundary displacements in statics.
 template <class Function>
-void set_displacement(const mesh::DistributedMesh& mesh, State& state, const Function& u) {
+void set_displacement(const distributed::DistributedMesh& mesh, State& state, const Function& u) {
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
     const Vec3<double> value = u(mesh.points[i]);
     for (int c = 0; c < 3; ++c) state.displacement[at(i) + c] = value[c];
@@ -88,7 +88,7 @@ void set_displacement(const mesh::DistributedMesh& mesh, State& state, const Fun
 
 /// Largest of value(node) over all owned nodes of all ranks.
 template <class Function>
-double largest(const mesh::DistributedMesh& mesh, const Function& value) {
+double largest(const distributed::DistributedMesh& mesh, const Function& value) {
   double result = 0;
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) result = std::max(result, value(i));
   return parallel::global_max(mesh.comm, result);
@@ -102,8 +102,8 @@ struct ElementData {
   std::int32_t element;
 };
 
-inline ElementData gather(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
-                          std::size_t region, std::int32_t element) {
+inline ElementData gather(const distributed::DistributedMesh& mesh, const coupling::WallModel& model,
+                          const State& state, std::size_t region, std::int32_t element) {
   ElementData e;
   e.nodes = mesh.regions[region].elements[element];
   for (int a = 0; a < 4; ++a) e.X[a] = mesh.points[e.nodes[a]];
@@ -114,7 +114,7 @@ inline ElementData gather(const mesh::DistributedMesh& mesh, const coupling::Wal
 
 /// Calls visit(ElementData) for the wall elements that this rank counts.
 template <class Visit>
-void for_each_element(const mesh::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
+void for_each_element(const distributed::DistributedMesh& mesh, const coupling::WallModel& model, const State& state,
                       const Visit& visit) {
   for (std::size_t r = 0; r < mesh.regions.size(); ++r)
     if (mesh.regions[r].kind == mesh::RegionKind::wall)

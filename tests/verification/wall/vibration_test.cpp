@@ -18,7 +18,7 @@ ProblemInput dynamic_input(const SolidCase& c, const Conditions& conditions, dou
 }
 
 template <class Function>
-void set_velocity(const mesh::DistributedMesh& mesh, State& state, const Function& v) {
+void set_velocity(const distributed::DistributedMesh& mesh, State& state, const Function& v) {
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
     const Vec3<double> value = v(mesh.points[i]);
     for (int c = 0; c < 3; ++c) state.velocity_pressure[at(i) + c] = state.displacement_rate[at(i) + c] = value[c];
@@ -50,7 +50,7 @@ class Crossings {
 };
 
 /// Component of a nodal field at the first owned node of `face` on the lowest rank that has one.
-double probe(const mesh::DistributedMesh& mesh, const State& state, const std::string& face, bool radial) {
+double probe(const distributed::DistributedMesh& mesh, const State& state, const std::string& face, bool radial) {
   double sums[2] = {};
   for (const auto& triangle : mesh.face(face).triangles)
     for (const auto i : triangle) {

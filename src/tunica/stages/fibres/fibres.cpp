@@ -7,14 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tunica/artifacts/manifest.hpp"
 #include "tunica/config/nearest.hpp"
+#include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/series_file.hpp"
-#include "tunica/mesh/simvascular.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
 #include "tunica/stages/fibres/fibres_report.hpp"
-#include "tunica/stages/manifest.hpp"
 
 namespace tunica::stages::fibres {
 
@@ -47,7 +47,7 @@ std::vector<std::string> wall_regions(const mesh::MeshData& data) {
 /// Values of the elements of the wall, in the order of the graph, on rank 0 for all elements of the mesh.
 class Gatherer {
  public:
-  explicit Gatherer(const mesh::DistributedMesh& mesh) : mesh_(mesh) {
+  explicit Gatherer(const distributed::DistributedMesh& mesh) : mesh_(mesh) {
     for (const auto& region : mesh.regions)
       ids_.insert(ids_.end(), region.element_ids.begin(), region.element_ids.begin() + region.owned_elements);
   }
@@ -70,7 +70,7 @@ class Gatherer {
   }
 
  private:
-  const mesh::DistributedMesh& mesh_;
+  const distributed::DistributedMesh& mesh_;
   std::vector<std::int64_t> ids_;
 };
 
@@ -80,7 +80,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 }
 
 /// All arrays but the distance to the tears.
-std::vector<mesh::ElementField> gather_frames(const FibresCase& c, const frames::ElementGraph& graph,
+std::vector<mesh::ElementField> gather_frames(const case_file::FibresCase& c, const frames::ElementGraph& graph,
                                               const frames::Frames& f) {
   const Gatherer gather(graph.mesh());
   std::vector<Vec3<double>> m4, m6;
@@ -103,27 +103,27 @@ std::vector<mesh::ElementField> gather_frames(const FibresCase& c, const frames:
 }
 
 /// meshes.yaml: what a case needs to compute on the result.
-std::string case_text(const std::vector<std::string>& regions, const FibresCase& c) {
-  return meshes_section(regions, c.meshes.interface) +
+std::string case_text(const std::vector<std::string>& regions, const case_file::FibresCase& c) {
+  return artifacts::meshes_section(regions, c.meshes.interface) +
          fmt::format("# and in its section `wall`:\n#   fibre_frame: {{mesh: {{e1: {}, e2: {}}}}}\n", array_e1,
                      array_e2);
 }
 
-void write(const FibresCase& c, const MadeFibres& made) {
+void write(const case_file::FibresCase& c, const MadeFibres& made) {
   const auto& folder = c.output;
   if (c.meshes.interface) {
     auto lumen = made.data;
     lumen.fields.clear();  // they are of the wall
-    mesh::write_simvascular(folder / "lumen", lumen, mesh::RegionKind::lumen, mm);
+    mesh_io::write_simvascular(folder / "lumen", lumen, mesh::RegionKind::lumen, mm);
   }
-  const auto regions = mesh::write_simvascular(folder / "wall", made.data, mesh::RegionKind::wall, mm);
-  mesh::write_atomically(folder / "meshes.yaml", case_text(regions, c));
-  mesh::write_atomically(folder / "report.json", made.report_json);
+  const auto regions = mesh_io::write_simvascular(folder / "wall", made.data, mesh::RegionKind::wall, mm);
+  files::write_atomically(folder / "meshes.yaml", case_text(regions, c));
+  files::write_atomically(folder / "report.json", made.report_json);
 }
 
 }  // namespace
 
-frames::FrameFaces face_roles(const FibresCase& c, const mesh::MeshData& data) {
+frames::FrameFaces face_roles(const case_file::FibresCase& c, const mesh::MeshData& data) {
   std::vector<Problem> problems;
   const auto faces = names_of(data.faces);
   check_names(c.inlet, faces, "inlet", "face", problems);
@@ -152,12 +152,13 @@ frames::FrameFaces face_roles(const FibresCase& c, const mesh::MeshData& data) {
   return roles;
 }
 
-MadeFibres make_fibres(const FibresCase& c, CheckedMesh loaded, MPI_Comm comm, const Say& say) {
-  Phases phases(say);
+MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh loaded, MPI_Comm comm,
+                       const files::Say& say) {
+  files::Phases phases(say);
   auto roles = parallel::on_root(comm, [&] { return face_roles(c, loaded.data); });
   for (auto* names : {&roles.inner, &roles.inlet, &roles.outlets}) parallel::broadcast(comm, *names);
   phases.begin("distribute");
-  const auto mesh = mesh::distribute(loaded.data, comm);
+  const auto mesh = distributed::distribute(loaded.data, comm);
   const frames::ElementGraph graph(mesh);
   phases.begin("directions");
   const auto frames = frames::make_frames(graph, roles, c.frames);
@@ -176,28 +177,28 @@ MadeFibres make_fibres(const FibresCase& c, CheckedMesh loaded, MPI_Comm comm, c
   input.undefined = frames.undefined;
   input.ranks = parallel::size(comm);
   input.seconds = phases.seconds;
-  input.peak_memory = peak_memory();
+  input.peak_memory = artifacts::peak_memory();
   const auto report = fibres_report(input);
   return {std::move(loaded.data), report.dump(2) + "\n", report_text(report)};
 }
 
-std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const Say& say) {
+std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const files::Say& say) {
   std::string text;
-  FibresCase c;
-  CheckedMesh loaded;
+  case_file::FibresCase c;
+  artifacts::CheckedMesh loaded;
   parallel::on_root(comm, [&] {
     text = config::read_text(request.file);
-    auto parsed = read_fibres_case(request.file);
+    auto parsed = case_file::read_fibres_case(request.file);
     for (const Problem& warning : parsed.warnings) say("warning: " + format(warning));
     c = std::move(parsed.value);
     if (request.output) c.output = *request.output;
     if (!request.overwrite && std::filesystem::exists(c.output / "report.json"))
       throw InputError(c.output.string(), "holds a result already", "give --overwrite, or another `output`");
-    loaded = load_meshes(c.meshes, {});
+    loaded = artifacts::load_meshes(c.meshes, {});
     for (const auto& line : loaded.warnings) say("warning: " + line);
   });
   parallel::broadcast(comm, text);
-  if (parallel::rank(comm) != 0) c = parse_fibres_case(text, request.file);
+  if (parallel::rank(comm) != 0) c = case_file::parse_fibres_case(text, request.file);
   const auto made = make_fibres(c, std::move(loaded), comm, say);
   return parallel::on_root(comm, [&] {
     write(c, made);

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/case/fibres_case.hpp"
+#include "tunica/files/phases.hpp"
 #include "tunica/frames/frames.hpp"
-#include "tunica/stages/fibres/fibres_case.hpp"
-#include "tunica/stages/load_mesh.hpp"
-#include "tunica/stages/phases.hpp"
 
 namespace tunica::stages::fibres {
 
@@ -20,14 +20,15 @@ inline constexpr const char *array_e1 = "e1", *array_e2 = "e2", *array_e3 = "e3"
                             *array_tear = "tear distance [mm]";
 
 /// What the faces of a mesh are to the frames. Throws InputError for names of faces or regions that do not exist.
-frames::FrameFaces face_roles(const FibresCase& c, const mesh::MeshData& data);
+frames::FrameFaces face_roles(const case_file::FibresCase& c, const mesh::MeshData& data);
 
 struct MadeFibres {
   mesh::MeshData data;                   ///< with the arrays above on the wall, NaN in the lumen; on rank 0
   std::string report_json, report_text;  ///< on rank 0
 };
 /// `loaded`: significant on rank 0. `say` is called on all ranks. Collective.
-MadeFibres make_fibres(const FibresCase& c, CheckedMesh loaded, MPI_Comm comm, const Say& say);
+MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh loaded, MPI_Comm comm,
+                       const files::Say& say);
 
 struct FibresRequest {
   std::filesystem::path file;
@@ -37,6 +38,6 @@ struct FibresRequest {
 /// Reads the file, makes the directions and writes wall/ and lumen/ (SimVascular's layout, mm), meshes.yaml (sections
 /// for a case) and report.json. Returns the report as text (rank 0). Throws InputError when there is a result already
 /// and `overwrite` is false. Collective.
-std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const Say& say);
+std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const files::Say& say);
 
 }  // namespace tunica::stages::fibres

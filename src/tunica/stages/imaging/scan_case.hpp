@@ -5,13 +5,13 @@
 #include <string>
 
 #include "tunica/config/schema.hpp"
-#include "tunica/stages/imaging/synthetic_scan.hpp"
+#include "tunica/imaging/synthetic_scan.hpp"
 
-namespace tunica::stages::imaging {
+namespace tunica::stages {
 
 struct ScanCase {
-  meshing::ParametricDissection parametric;
-  ScanSettings scan;
+  geometry::ParametricDissection parametric;
+  imaging::ScanSettings scan;
   std::filesystem::path output;
 
   static config::Schema<ScanCase> schema();
@@ -24,4 +24,4 @@ config::Parsed<ScanCase> read_scan_case(const std::filesystem::path& file);
 /// ends. InputError when the image exists and `overwrite` is false; errors of `write_label_image`.
 std::string scan_to_file(const ScanCase& scan_case, bool overwrite);
 
-}  // namespace tunica::stages::imaging
+}  // namespace tunica::stages

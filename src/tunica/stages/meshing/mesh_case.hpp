@@ -1,39 +1,13 @@
-// The file of `tunica mesh`: what is meshed, how finely, and where the result goes.
+// `tunica mesh`: from what its file says to a mesh and a report on it.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <variant>
 
-#include "tunica/config/schema.hpp"
+#include "tunica/case/mesh_settings.hpp"
+#include "tunica/files/phases.hpp"
 #include "tunica/mesh/mesh_data.hpp"
-#include "tunica/stages/meshing/boundary_layers.hpp"
-#include "tunica/stages/meshing/geometry.hpp"
-#include "tunica/stages/phases.hpp"
 
-namespace tunica::stages::meshing {
-
-struct Coarse {};
-struct Medium {};
-struct Full {};
-using Size = std::variant<Coarse, Medium, Full, double>;  ///< a number: largest edge length [m]
-double edge_length(const Size& size);                     ///< m
-/// What follows from the largest edge: a coarse mesh is also coarser than the wall is thick.
-SizeSettings size_settings(double edge);
-
-struct MeshCase {
-  std::string title;
-  Geometry geometry;
-  Size size = Medium{};
-  int elements_through_wall = 1;
-  std::optional<BoundaryLayers> boundary_layers;
-  std::filesystem::path output;
-
-  static config::Schema<MeshCase> schema();
-};
-
-/// Throws InputError with all problems.
-config::Parsed<MeshCase> read_mesh_case(const std::filesystem::path& file);
+namespace tunica::stages {
 
 struct MadeMesh {
   mesh::MeshData data;
@@ -42,11 +16,11 @@ struct MadeMesh {
 };
 
 /// Throws SolverError when the mesh does not become what it has to be.
-MadeMesh make_mesh(const MeshCase& mesh_case, const Say& say);
+MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say);
 
 /// Makes the mesh and writes lumen/ and wall/ (SimVascular's layout, mm), report.json, report.html and meshes.yaml, the
 /// section for a case file. Returns the report as text. Throws InputError when there is a mesh already and `overwrite`
 /// is false.
-std::string mesh_to_files(const MeshCase& mesh_case, bool overwrite, const Say& say);
+std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say);
 
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::stages

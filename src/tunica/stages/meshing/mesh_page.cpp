@@ -6,47 +6,49 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tunica/stages/meshing/canvas.hpp"
-#include "tunica/stages/meshing/element_cut.hpp"
-#include "tunica/stages/page.hpp"
-#include "tunica/stages/plot.hpp"
+#include "tunica/drawing/canvas.hpp"
+#include "tunica/drawing/page.hpp"
+#include "tunica/drawing/plot.hpp"
+#include "tunica/meshing/element_cut.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::stages {
 
 namespace {
 
 using nlohmann::json;
 
-constexpr Colour true_lumen{246, 200, 196}, false_lumen{196, 214, 240};
+constexpr drawing::Colour true_lumen{246, 200, 196}, false_lumen{196, 214, 240};
 /// In the order of `WallRegion`.
-constexpr std::array<Colour, 4> region_colours = {{{192, 57, 43}, {41, 98, 155}, {46, 160, 67}, {222, 165, 50}}};
+constexpr std::array<drawing::Colour, 4> region_colours = {
+    {{192, 57, 43}, {41, 98, 155}, {46, 160, 67}, {222, 165, 50}}};
 
-std::string hex(const Colour& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
+std::string hex(const drawing::Colour& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
 
-std::string figure(const Canvas& canvas, const std::string& caption) {
-  return page::picture(page::data_url(canvas.png()), caption);
+std::string figure(const drawing::Canvas& canvas, const std::string& caption) {
+  return drawing::page::picture(drawing::page::data_url(canvas.png()), caption);
 }
 
-std::string legend(const std::vector<std::pair<std::string, Colour>>& entries) {
+std::string legend(const std::vector<std::pair<std::string, drawing::Colour>>& entries) {
   std::string text = "<p class=\"legend\">";
   for (const auto& [name, colour] : entries)
     text += fmt::format("<span><i style=\"background:{}\"></i>{}</span> ", hex(colour), name);
   return text + "</p>\n";
 }
 
-std::array<Point, 3> corners_of(const Tetrahedra& mesh, const std::array<Index, 3>& nodes) {
+std::array<geometry::Point, 3> corners_of(const geometry::Tetrahedra& mesh,
+                                          const std::array<geometry::Index, 3>& nodes) {
   return {mesh.points[nodes[0]], mesh.points[nodes[1]], mesh.points[nodes[2]]};
 }
 
 class Pictures {
  public:
-  explicit Pictures(const MeshPageInput& input) : in_(input), triangles_(surface_triangles(input.mesh)) {}
+  explicit Pictures(const MeshPageInput& input) : in_(input), triangles_(geometry::surface_triangles(input.mesh)) {}
 
   /// The wall from outside, or what lies around the lumen, each triangle in the colour of its wall element's region.
-  Canvas regions(bool from_outside, bool from_behind) const {
-    Canvas canvas(width, height, all(from_behind));
+  drawing::Canvas regions(bool from_outside, bool from_behind) const {
+    drawing::Canvas canvas(width, height, all(from_behind));
     for (const auto& t : triangles_) {
-      const bool outer = t.label == wall_label, interface = t.neighbour_label == wall_label;
+      const bool outer = t.label == geometry::wall_label, interface = t.neighbour_label == geometry::wall_label;
       if (from_outside ? !outer : !interface) continue;
       const auto region = in_.regions.of_element[outer ? t.element : t.neighbour];
       canvas.add(corners_of(in_.mesh, t.nodes), region_colours[static_cast<std::size_t>(region)]);
@@ -54,33 +56,35 @@ class Pictures {
     return canvas;
   }
 
-  Canvas thickness(double thinnest, double thickest) const {
-    Canvas canvas(width, height, all(false));
+  drawing::Canvas thickness(double thinnest, double thickest) const {
+    drawing::Canvas canvas(width, height, all(false));
     const auto& surface = in_.prepared.lumen.surface();
     for (const auto& t : surface.triangles) {
       const double value = (in_.prepared.thickness.value[t[0]] + in_.prepared.thickness.value[t[1]] +
                             in_.prepared.thickness.value[t[2]]) /
                            3;
-      const Colour colour =
-          std::isfinite(value) ? scale_colour((value - thinnest) / (thickest - thinnest)) : Colour{200, 200, 200};
+      const drawing::Colour colour = std::isfinite(value)
+                                         ? drawing::scale_colour((value - thinnest) / (thickest - thinnest))
+                                         : drawing::Colour{200, 200, 200};
       canvas.add({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]}, colour);
     }
     return canvas;
   }
 
   /// The elements cut by a plane, within `reach` of its centre.
-  Canvas cut(const Point& centre, const Vec3<double>& normal, const Vec3<double>& up, double reach) const {
-    Canvas canvas(side, side, {centre, normal, up, 2 * reach});
+  drawing::Canvas cut(const geometry::Point& centre, const Vec3<double>& normal, const Vec3<double>& up,
+                      double reach) const {
+    drawing::Canvas canvas(side, side, {centre, normal, up, 2 * reach});
     const auto& mesh = in_.mesh;
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      std::array<Point, 4> x;
+      std::array<geometry::Point, 4> x;
       std::array<double, 4> heights;
       for (int k = 0; k < 4; ++k) {
         x[k] = mesh.points[mesh.elements[e][k]];
         heights[k] = dot(x[k] - centre, normal);
       }
       if (norm(x[0] - centre) > 1.6 * reach) continue;
-      const auto polygon = zero_polygon(x, heights);
+      const auto polygon = meshing::zero_polygon(x, heights);
       for (std::size_t k = 2; k < polygon.size(); ++k)
         canvas.add({polygon[0], polygon[k - 1], polygon[k]}, colour_of(e), {k == 2, true, k + 1 == polygon.size()},
                    false);
@@ -89,11 +93,12 @@ class Pictures {
   }
 
   /// Direction in which the part of the flap near a place is longest: the axis of the vessel there.
-  Vec3<double> axis_near(const Point& place, double reach) const {
+  Vec3<double> axis_near(const geometry::Point& place, double reach) const {
     // The vessel is longer than wide, so power iteration on the moments of the wall within a ball finds it.
     Mat3<double> moments{};
     for (std::size_t e = 0; e < in_.mesh.elements.size(); ++e) {
-      if (in_.mesh.labels[e] != wall_label || in_.regions.of_element[e] != WallRegion::flap) continue;
+      if (in_.mesh.labels[e] != geometry::wall_label || in_.regions.of_element[e] != meshing::WallRegion::flap)
+        continue;
       const auto d = in_.mesh.points[in_.mesh.elements[e][0]] - place;
       if (norm(d) > reach) continue;
       for (int i = 0; i < 3; ++i)
@@ -111,36 +116,38 @@ class Pictures {
  private:
   static constexpr int width = 360, height = 640, side = 560;
 
-  Camera all(bool from_behind) const {
+  drawing::Camera all(bool from_behind) const {
     const auto& surface = in_.prepared.outer ? *in_.prepared.outer : in_.prepared.lumen;
-    auto camera = look_at_all(surface.surface().points, static_cast<double>(width) / height);
+    auto camera = drawing::look_at_all(surface.surface().points, static_cast<double>(width) / height);
     if (from_behind) camera.towards = -1.0 * camera.towards;
     return camera;
   }
-  Colour colour_of(std::size_t e) const {
-    if (in_.mesh.labels[e] == wall_label) return region_colours[static_cast<std::size_t>(in_.regions.of_element[e])];
+  drawing::Colour colour_of(std::size_t e) const {
+    if (in_.mesh.labels[e] == geometry::wall_label)
+      return region_colours[static_cast<std::size_t>(in_.regions.of_element[e])];
     double sum = 0;
     for (const auto n : in_.mesh.elements[e]) sum += in_.regions.side[n];
     return sum > 0 ? true_lumen : false_lumen;
   }
 
   const MeshPageInput& in_;
-  std::vector<LabelledTriangle> triangles_;
+  std::vector<geometry::LabelledTriangle> triangles_;
 };
 
 /// The flap element nearest to the middle of the flap; none when there is no flap.
-std::vector<Point> middle_of_flap(const MeshPageInput& in) {
-  std::vector<Point> flap;
-  Point middle{{0, 0, 0}};
+std::vector<geometry::Point> middle_of_flap(const MeshPageInput& in) {
+  std::vector<geometry::Point> flap;
+  geometry::Point middle{{0, 0, 0}};
   for (std::size_t e = 0; e < in.mesh.elements.size(); ++e)
-    if (in.mesh.labels[e] == wall_label && in.regions.of_element[e] == WallRegion::flap) {
+    if (in.mesh.labels[e] == geometry::wall_label && in.regions.of_element[e] == meshing::WallRegion::flap) {
       flap.push_back(in.mesh.points[in.mesh.elements[e][0]]);
       middle = middle + flap.back();
     }
   if (flap.empty()) return {};
   middle = (1.0 / static_cast<double>(flap.size())) * middle;
-  return {*std::min_element(flap.begin(), flap.end(),
-                            [&](const Point& a, const Point& b) { return norm(a - middle) < norm(b - middle); })};
+  return {*std::min_element(flap.begin(), flap.end(), [&](const geometry::Point& a, const geometry::Point& b) {
+    return norm(a - middle) < norm(b - middle);
+  })};
 }
 
 /// Any direction across the axis will do as up, but one that does not jump.
@@ -151,9 +158,9 @@ Vec3<double> across(const Vec3<double>& axis) {
 
 std::string pictures(const MeshPageInput& in) {
   const Pictures draw(in);
-  std::vector<std::pair<std::string, Colour>> colours;
-  for (std::size_t r = 0; r < wall_region_names.size(); ++r)
-    colours.emplace_back(wall_region_names[r], region_colours[r]);
+  std::vector<std::pair<std::string, drawing::Colour>> colours;
+  for (std::size_t r = 0; r < meshing::wall_region_names.size(); ++r)
+    colours.emplace_back(meshing::wall_region_names[r], region_colours[r]);
   std::string text = "<h2>Regions</h2>\n" + legend(colours) +
                      figure(draw.regions(true, false), "The wall from outside") +
                      figure(draw.regions(true, true), "From behind") +
@@ -190,7 +197,7 @@ std::string pictures(const MeshPageInput& in) {
 }
 
 std::string histogram(const json& counts, double bin, const std::string& title, const std::string& label) {
-  Series bars{"", {}, {}};
+  drawing::Series bars{"", {}, {}};
   double at = 0;
   for (const auto& n : counts) {
     for (const double x : {at, at + bin}) {
@@ -199,37 +206,40 @@ std::string histogram(const json& counts, double bin, const std::string& title, 
     }
     at += bin;
   }
-  return page::drawing(
-      draw_plot({bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
+  return drawing::page::drawing(drawing::draw_plot(
+      {bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
 }
 
 std::string number(const json& value, int digits) { return fmt::format("{:.{}f}", value.get<double>(), digits); }
 
 std::string tables(const json& r) {
   std::string text = "<h2>Regions in numbers</h2>\n<table>\n" +
-                     page::row({"region", "elements", "volume [ml]", "smallest dihedral angle", "exceeded by 99.99 %",
-                                "mean edge [mm]"},
-                               "th");
+                     drawing::page::row({"region", "elements", "volume [ml]", "smallest dihedral angle",
+                                         "exceeded by 99.99 %", "mean edge [mm]"},
+                                        "th");
   const auto line = [&](const std::string& name, const json& s, const std::string& volume) {
-    text += page::row({name, std::to_string(s["elements"].get<Index>()), volume,
-                       number(s["smallest_dihedral_deg"], 1) + "°",
-                       number(s["dihedral_of_worst_0.01_percent_deg"], 1) + "°", number(s["edge_mm"]["mean"], 2)});
+    text +=
+        drawing::page::row({name, std::to_string(s["elements"].get<geometry::Index>()), volume,
+                            number(s["smallest_dihedral_deg"], 1) + "°",
+                            number(s["dihedral_of_worst_0.01_percent_deg"], 1) + "°", number(s["edge_mm"]["mean"], 2)});
   };
   for (const auto& region : r["regions"]) line(region["name"], region, number(region["volume_ml"], 2));
   line("all", r["shapes"], "");
-  text += "</table>\n<h2>Faces</h2>\n<table>\n" + page::row({"face", "triangles", "area [mm²]"}, "th");
+  text += "</table>\n<h2>Faces</h2>\n<table>\n" + drawing::page::row({"face", "triangles", "area [mm²]"}, "th");
   for (const auto& face : r["faces"])
-    text += page::row({face["name"], std::to_string(face["triangles"].get<Index>()), number(face["area_mm2"], 1)});
-  text += "</table>\n<h2>Tears</h2>\n<table>\n" + page::row({"tear", "area [mm²]", "centre [mm]"}, "th");
+    text += drawing::page::row(
+        {face["name"], std::to_string(face["triangles"].get<geometry::Index>()), number(face["area_mm2"], 1)});
+  text += "</table>\n<h2>Tears</h2>\n<table>\n" + drawing::page::row({"tear", "area [mm²]", "centre [mm]"}, "th");
   int count = 0;
   for (const auto& tear : r["tears"])
-    text += page::row({std::to_string(++count), number(tear["area_mm2"], 1),
-                       fmt::format("{:.1f}, {:.1f}, {:.1f}", tear["centre_mm"][0].get<double>(),
-                                   tear["centre_mm"][1].get<double>(), tear["centre_mm"][2].get<double>())});
-  text += "</table>\n<h2>Thickness</h2>\n<table>\n" + page::row({"of", "5 % [mm]", "median [mm]", "95 % [mm]"}, "th");
+    text += drawing::page::row({std::to_string(++count), number(tear["area_mm2"], 1),
+                                fmt::format("{:.1f}, {:.1f}, {:.1f}", tear["centre_mm"][0].get<double>(),
+                                            tear["centre_mm"][1].get<double>(), tear["centre_mm"][2].get<double>())});
+  text += "</table>\n<h2>Thickness</h2>\n<table>\n" +
+          drawing::page::row({"of", "5 % [mm]", "median [mm]", "95 % [mm]"}, "th");
   for (const auto& [name, values] : r["thickness_mm"].items())
-    text +=
-        page::row({name, number(values["5_percent"], 2), number(values["median"], 2), number(values["95_percent"], 2)});
+    text += drawing::page::row(
+        {name, number(values["5_percent"], 2), number(values["median"], 2), number(values["95_percent"], 2)});
   return text + "</table>\n";
 }
 
@@ -242,13 +252,13 @@ std::string summary(const json& r) {
       "{} edge lengths, the outer one within {} mm or {}.<br>\n"
       "The lumen is {} piece(s) of genus {}: {} tear(s). The wall is one element thick at {} % of its surface "
       "nodes.<br>\nMade in {} s with {} MB.</p>\n",
-      r["tetrahedra"].get<Index>(), r["points"].get<Index>(), r["interface_nodes"].get<Index>(),
-      number(r["shapes"]["smallest_dihedral_deg"], 1), f["lumen_volume_percent"].get<double>(),
-      f["wall_volume_percent"].get<double>(), number(f["lumen_distance_mm"], 2),
-      number(f["lumen_distance_per_edge"], 2), number(f["outer_distance_mm"], 2),
-      number(f["outer_distance_per_edge"], 2), lumen["parts"].get<Index>(), lumen["genus"].get<Index>(),
-      r["tears"].size(), number(r["wall_one_element_thick_percent"], 1), number(r["seconds"]["total"], 0),
-      number(r["peak_memory_mb"], 0));
+      r["tetrahedra"].get<geometry::Index>(), r["points"].get<geometry::Index>(),
+      r["interface_nodes"].get<geometry::Index>(), number(r["shapes"]["smallest_dihedral_deg"], 1),
+      f["lumen_volume_percent"].get<double>(), f["wall_volume_percent"].get<double>(),
+      number(f["lumen_distance_mm"], 2), number(f["lumen_distance_per_edge"], 2), number(f["outer_distance_mm"], 2),
+      number(f["outer_distance_per_edge"], 2), lumen["parts"].get<geometry::Index>(),
+      lumen["genus"].get<geometry::Index>(), r["tears"].size(), number(r["wall_one_element_thick_percent"], 1),
+      number(r["seconds"]["total"], 0), number(r["peak_memory_mb"], 0));
 }
 
 }  // namespace
@@ -256,12 +266,12 @@ std::string summary(const json& r) {
 std::string mesh_page(const MeshPageInput& in) {
   const auto& shapes = in.report["shapes"];
   const std::string title = in.title.empty() ? "Mesh" : in.title;
-  return page::begin(title) + summary(in.report) + pictures(in) + "<h2>Shapes</h2>\n" +
+  return drawing::page::begin(title) + summary(in.report) + pictures(in) + "<h2>Shapes</h2>\n" +
          histogram(shapes["dihedral_histogram_5_deg"], 5, "Smallest dihedral angle of each element",
                    "angle [degrees]") +
          histogram(shapes["radius_ratio_histogram_0.1"], 0.1, "Radius ratio of each element (1: regular)",
                    "3 inradius / circumradius") +
-         tables(in.report) + page::end();
+         tables(in.report) + drawing::page::end();
 }
 
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::stages

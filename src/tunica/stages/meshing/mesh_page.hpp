@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "tunica/stages/meshing/patient_complex.hpp"
-#include "tunica/stages/meshing/tears.hpp"
-#include "tunica/stages/meshing/wall_regions.hpp"
+#include "tunica/meshing/patient_complex.hpp"
+#include "tunica/meshing/tears.hpp"
+#include "tunica/meshing/wall_regions.hpp"
 
-namespace tunica::stages::meshing {
+namespace tunica::stages {
 
 struct MeshPageInput {
   std::string title;
-  const Tetrahedra& mesh;
-  const WallRegions& regions;
-  const std::vector<Tear>& tears;
-  const PreparedSurfaces& prepared;
+  const geometry::Tetrahedra& mesh;
+  const meshing::WallRegions& regions;
+  const std::vector<meshing::Tear>& tears;
+  const meshing::PreparedSurfaces& prepared;
   const nlohmann::json& report;  ///< of mesh_report()
 };
 
@@ -24,4 +24,4 @@ struct MeshPageInput {
 /// the flap and the tears, histograms of dihedral angle and radius ratio, tables of regions, openings and tears.
 std::string mesh_page(const MeshPageInput& input);
 
-}  // namespace tunica::stages::meshing
+}  // namespace tunica::stages

@@ -7,7 +7,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
-#include "tunica/stages/csv_file.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::stages::post {
 
@@ -16,7 +16,7 @@ namespace {
 namespace dimension = config::dimension;
 
 /// Column "name [unit]" in SI.
-std::vector<double> si_column(const CsvColumns& table, const std::string& name, const config::Dimension& due) {
+std::vector<double> si_column(const files::CsvColumns& table, const std::string& name, const config::Dimension& due) {
   for (std::size_t k = 0; k < table.headers.size(); ++k) {
     const std::string& header = table.headers[k];
     if (!header.starts_with(name + " [") || !header.ends_with("]")) continue;
@@ -26,7 +26,7 @@ std::vector<double> si_column(const CsvColumns& table, const std::string& name, 
     return values;
   }
   throw InputError(table.file.string(), fmt::format("no column is called '{} [unit]'", name),
-                   "run the case again, or choose from: " + listed(table.headers));
+                   "run the case again, or choose from: " + files::listed(table.headers));
 }
 
 std::vector<double> plus(std::vector<double> sum, const std::vector<double>& more) {
@@ -36,8 +36,8 @@ std::vector<double> plus(std::vector<double> sum, const std::vector<double>& mor
 
 }  // namespace
 
-Window choose_window(const std::vector<double>& times, const PostSettings& settings, const std::string& results,
-                     std::vector<std::string>& warnings) {
+Window choose_window(const std::vector<double>& times, const analysis::PostSettings& settings,
+                     const std::string& results, std::vector<std::string>& warnings) {
   Window w{settings.from.value_or(times.front()), settings.until.value_or(times.back())};
   if (settings.period && settings.from) w.until = *settings.from + *settings.period;
   if (settings.period && !settings.from) w.from = w.until - *settings.period;
@@ -70,10 +70,10 @@ Window choose_window(const std::vector<double>& times, const PostSettings& setti
   return w;
 }
 
-std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const Case& c, const Vessel& vessel,
-                                          const Window& window) {
+std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const case_file::Case& c,
+                                          const analysis::Vessel& vessel, const Window& window) {
   if (!c.solves_fluid()) return {};
-  const auto table = read_csv(results / "faces.csv", "run the case first: tunica run");
+  const auto table = files::read_csv(results / "faces.csv", "run the case first: tunica run");
   const auto times = si_column(table, "time", dimension::time);
   std::vector<OpeningHistory> openings;
   for (const auto& opening : vessel.openings) {
@@ -99,13 +99,13 @@ std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, 
 std::size_t Findings::peak() const {
   std::vector<double> measure(times.size(), 0.0);
   if (!vessel.openings.empty()) {
-    measure = figures.column(column::opening(data.faces[vessel.inlet].name, "pressure"));
+    measure = figures.column(analysis::column::opening(data.faces[vessel.inlet].name, "pressure"));
   } else {
     for (const auto& region : data.regions) {
       double volume = 0;
       for (auto e = region.first_element; e < region.end_element; ++e)
         volume += frames.volumes()[static_cast<std::size_t>(e)];
-      const auto mean = figures.column(column::stress(region.name, frames.stresses()[0], "mean"));
+      const auto mean = figures.column(analysis::column::stress(region.name, frames.stresses()[0], "mean"));
       for (std::size_t k = 0; k < measure.size(); ++k) measure[k] += volume * mean[k];
     }
   }
@@ -114,14 +114,16 @@ std::size_t Findings::peak() const {
 
 std::vector<double> Findings::flow_through_tears() const {
   std::vector<double> sum(times.size(), 0.0);
-  for (const auto& tear : vessel.tears) sum = plus(std::move(sum), figures.column(column::tear(tear.name, "flow")));
+  for (const auto& tear : vessel.tears)
+    sum = plus(std::move(sum), figures.column(analysis::column::tear(tear.name, "flow")));
   return sum;
 }
 
 std::vector<double> Findings::flow_out_of_false_lumen() const {
   std::vector<double> sum(times.size(), 0.0);
   for (const auto& opening : vessel.openings)
-    if (opening.in_false_lumen) sum = plus(std::move(sum), figures.column(column::opening(opening.name, "flow")));
+    if (opening.in_false_lumen)
+      sum = plus(std::move(sum), figures.column(analysis::column::opening(opening.name, "flow")));
   return sum;
 }
 
@@ -129,7 +131,8 @@ std::size_t Findings::entry_tear() const {
   std::size_t entry = 0;
   double most = -1;
   for (std::size_t k = 0; k < vessel.tears.size(); ++k)
-    if (const auto c = course(times, figures.column(column::tear(vessel.tears[k].name, "flow"))); c.forward > most) {
+    if (const auto c = analysis::course(times, figures.column(analysis::column::tear(vessel.tears[k].name, "flow")));
+        c.forward > most) {
       most = c.forward;
       entry = k;
     }

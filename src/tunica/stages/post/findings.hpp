@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "tunica/stages/manifest.hpp"
-#include "tunica/stages/post/cycle.hpp"
-#include "tunica/stages/post/frame_figures.hpp"
+#include "tunica/analysis/cycle.hpp"
+#include "tunica/analysis/frame_figures.hpp"
+#include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/case.hpp"
 
 namespace tunica::stages::post {
 
@@ -20,8 +21,8 @@ struct Window {
 
 /// Throws InputError when the results do not cover it, or fewer than three fields lie in it. Adds a warning where its
 /// ends lie between two fields.
-Window choose_window(const std::vector<double>& times, const PostSettings& settings, const std::string& results,
-                     std::vector<std::string>& warnings);
+Window choose_window(const std::vector<double>& times, const analysis::PostSettings& settings,
+                     const std::string& results, std::vector<std::string>& warnings);
 
 /// An opening over the window, from the history with every step.
 struct OpeningHistory {
@@ -29,28 +30,28 @@ struct OpeningHistory {
   std::vector<double> times, flow, pressure;  ///< s, m^3/s outwards, Pa
 };
 /// Throws InputError when faces.csv is missing or does not cover the window.
-std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const Case& c, const Vessel& vessel,
-                                          const Window& window);
+std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const case_file::Case& c,
+                                          const analysis::Vessel& vessel, const Window& window);
 
 struct Findings {
-  ProgramVersion program;
+  artifacts::ProgramVersion program;
   std::filesystem::path case_file, results;
   std::string title;
-  const PostSettings& settings;
+  const analysis::PostSettings& settings;
   const mesh::MeshData& data;
-  const Vessel& vessel;
+  const analysis::Vessel& vessel;
   Window window;
   std::vector<double> times;  ///< of the frames in the window [s]
-  const FigureTable& figures;
-  const FrameFigures& frames;
-  const CycleFields& fields;
+  const analysis::FigureTable& figures;
+  const analysis::FrameFigures& frames;
+  const analysis::CycleFields& fields;
   std::vector<OpeningHistory> openings;
-  std::vector<LeftOut> left_out;
+  std::vector<analysis::LeftOut> left_out;
   std::vector<std::string> warnings;
   double seconds = 0;
 
   bool has_stations() const { return !vessel.stations.empty(); }
-  bool has_flap() const { return figures.has(column::flap_mean); }
+  bool has_flap() const { return figures.has(analysis::column::flap_mean); }
   /// Frame with the highest mean pressure at the inlet; without flow that with the highest mean stress of the wall.
   std::size_t peak() const;
   /// Course of the net flow through all tears into the false lumen, and through its openings out of it [m^3/s].

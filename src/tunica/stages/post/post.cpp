@@ -6,11 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/mesh/series_file.hpp"
+#include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
-#include "tunica/stages/load_mesh.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 constexpr const char* report_file = "post.json";
 
 /// Without the section `post` those of its schema; a case that computes cycles says how long one is.
-PostSettings settings_of(const Case& c) {
-  PostSettings settings = c.post ? *c.post : config::parse_text(PostSettings::schema(), "{}").value;
+analysis::PostSettings settings_of(const case_file::Case& c) {
+  analysis::PostSettings settings = c.post ? *c.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
   if (!settings.period && !settings.from && c.time && c.time->cycles) settings.period = c.time->cycles->period;
   return settings;
 }
@@ -31,9 +31,9 @@ PostSettings settings_of(const Case& c) {
 /// Frames as they are needed one after the other: the present one, and its neighbours for rates.
 class FrameWindow {
  public:
-  FrameWindow(FieldSeries& series, bool moves) : series_(series), moves_(moves) {}
+  FrameWindow(analysis::FieldSeries& series, bool moves) : series_(series), moves_(moves) {}
 
-  const FieldFrame& at(std::size_t frame) {
+  const analysis::FieldFrame& at(std::size_t frame) {
     std::erase_if(held_, [&](const auto& held) { return held.first + 2 < frame; });
     const auto found = held_.find(frame);
     return found != held_.end() ? found->second : held_.emplace(frame, series_.read(frame)).first->second;
@@ -42,7 +42,7 @@ class FrameWindow {
   /// Of the nodes, from three frames; empty where nothing moves.
   std::vector<double> mesh_velocity(std::size_t frame) {
     if (!moves_) return {};
-    const auto d = derivative_at(series_.times(), frame);
+    const auto d = analysis::derivative_at(series_.times(), frame);
     std::vector<double> velocity(at(frame).displacement.size(), 0.0);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& u = at(d.first + i).displacement;
@@ -52,9 +52,9 @@ class FrameWindow {
   }
 
  private:
-  FieldSeries& series_;
+  analysis::FieldSeries& series_;
   bool moves_;
-  std::map<std::size_t, FieldFrame> held_;
+  std::map<std::size_t, analysis::FieldFrame> held_;
 };
 
 /// One `tunica post`. Its member functions are collective.
@@ -73,19 +73,19 @@ class Post {
   const PostRequest& request_;
   std::FILE* screen_;
   double started_ = MPI_Wtime();
-  Case case_;
-  PostSettings settings_;
+  case_file::Case case_;
+  analysis::PostSettings settings_;
   fs::path results_, folder_;
   mesh::MeshData data_;
-  std::optional<FieldSeries> series_;
+  std::optional<analysis::FieldSeries> series_;
   std::vector<std::string> warnings_;
   std::vector<double> times_;  ///< of the frames in the window [s]
   Window window_;
   std::optional<parallel::Log> log_;
-  Vessel vessel_;
-  std::optional<FrameFigures> frames_;
-  std::optional<FigureTable> figures_;
-  CycleFields fields_;
+  analysis::Vessel vessel_;
+  std::optional<analysis::FrameFigures> frames_;
+  std::optional<analysis::FigureTable> figures_;
+  analysis::CycleFields fields_;
 };
 
 Post::Post(MPI_Comm comm, const PostRequest& request, std::FILE* screen)
@@ -98,20 +98,20 @@ void Post::read() {
   std::string text;
   parallel::on_root(comm_, [&] {
     text = config::read_text(request_.case_file);
-    auto parsed = read_case(request_.case_file);
+    auto parsed = case_file::read_case(request_.case_file);
     case_ = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) warnings_.push_back(format(warning));
-    if (std::holds_alternative<StaticWall>(case_.analysis))
+    if (std::holds_alternative<case_file::StaticWall>(case_.analysis))
       throw InputError("analysis", "is static_wall, which has no course in time", "choose fsi, flow or wall");
   });
   parallel::broadcast(comm_, text);
-  if (parallel::rank(comm_) != 0) case_ = parse_case(text, request_.case_file);
+  if (parallel::rank(comm_) != 0) case_ = case_file::parse_case(text, request_.case_file);
   settings_ = settings_of(case_);
   results_ = request_.results.value_or(case_.output.directory);
   folder_ = post_folder(case_, request_);
   parallel::agree(comm_, [&] {
-    data_ = load_meshes(case_.meshes, {}).data;
-    series_.emplace(case_, data_, results_);
+    data_ = artifacts::load_meshes(case_.meshes, {}).data;
+    series_.emplace(case_file::describe(case_), data_, results_);
     auto warnings = std::vector<std::string>{};
     window_ = choose_window(series_->times(), settings_, results_.string(), warnings);
     if (parallel::rank(comm_) == 0) warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
@@ -140,10 +140,10 @@ void Post::look_at_frames() {
   const auto ranks = static_cast<std::size_t>(parallel::size(comm_)),
              rank = static_cast<std::size_t>(parallel::rank(comm_));
   const std::size_t begin = times_.size() * rank / ranks, end = times_.size() * (rank + 1) / ranks;
-  const auto weights = trapezoid_weights(times_);
+  const auto weights = analysis::trapezoid_weights(times_);
   FrameWindow window(*series_, case_.solves_fluid() && case_.solves_wall());
   const auto start = parallel::agree(comm_, [&] { return series_->read(window_.first).displacement; });
-  frames_.emplace(case_, settings_, data_, vessel_, series_->stresses(), start);
+  frames_.emplace(case_file::describe(case_), settings_, data_, vessel_, series_->stresses(), start);
   figures_.emplace(times_.size());
   fields_ = frames_->no_fields();
   parallel::Progress bar(*log_, "post", 0, static_cast<double>(times_.size()) / static_cast<double>(ranks));
@@ -157,7 +157,7 @@ void Post::look_at_frames() {
     }
   });
   figures_->gather(comm_);
-  gather(comm_, fields_);
+  analysis::gather(comm_, fields_);
 }
 
 void Post::write() {
@@ -185,21 +185,21 @@ void Post::write() {
     for (const auto& write : {write_tables, write_plots, write_fields})
       for (const auto& file : write(findings, folder_)) files.push_back(file);
     report["seconds"] = MPI_Wtime() - started_;
-    mesh::write_atomically(folder_ / report_file, report.dump(2) + "\n");
+    files::write_atomically(folder_ / report_file, report.dump(2) + "\n");
     log_->info(report_text(report));
   });
   log_->info(fmt::format("{} files in {}", report_file, folder_.string()));
 }
 
 void Post::steps() {
-  vessel_ = make_vessel(case_, settings_, data_, comm_);
+  vessel_ = analysis::make_vessel(case_file::describe(case_), settings_, data_, comm_);
   look_at_frames();
   write();
 }
 
 }  // namespace
 
-fs::path post_folder(const Case& c, const PostRequest& request) {
+fs::path post_folder(const case_file::Case& c, const PostRequest& request) {
   if (request.output) return *request.output;
   if (c.post && c.post->output) return *c.post->output;
   return request.results.value_or(c.output.directory) / "post";

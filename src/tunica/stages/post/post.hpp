@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "tunica/stages/case.hpp"
-#include "tunica/stages/manifest.hpp"
+#include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/case.hpp"
 
 namespace tunica::stages::post {
 
@@ -17,7 +17,7 @@ struct PostRequest {
   std::optional<std::filesystem::path> results;  ///< folder that `tunica run` wrote, instead of the one in the case
   std::optional<std::filesystem::path> output;   ///< instead of the one in the case
   bool overwrite = false;                        ///< earlier files may be replaced
-  ProgramVersion program;
+  artifacts::ProgramVersion program;
 };
 
 /// Reads the series of fields and the histories of a run, and writes post.json, tables (.csv), plots (.svg) and fields
@@ -30,6 +30,6 @@ struct PostRequest {
 void post_results(MPI_Comm comm, const PostRequest& request, std::FILE* screen);
 
 /// Where its files go.
-std::filesystem::path post_folder(const Case& c, const PostRequest& request);
+std::filesystem::path post_folder(const case_file::Case& c, const PostRequest& request);
 
 }  // namespace tunica::stages::post

@@ -72,7 +72,7 @@ void write_wall_shear(const Findings& f, const fs::path& file) {
   const double duration = f.window.until - f.window.from;
   for (const auto node : used.nodes) {
     const double* s = f.fields.shear.data() + 4 * static_cast<std::size_t>(node);
-    const auto figures = shear_figures(s[0], {{s[1], s[2], s[3]}}, duration);
+    const auto figures = analysis::shear_figures(s[0], {{s[1], s[2], s[3]}}, duration);
     tawss->InsertNextValue(static_cast<float>(figures.tawss));
     osi->InsertNextValue(static_cast<float>(figures.osi));
     rrt->InsertNextValue(static_cast<float>(figures.rrt));
@@ -122,11 +122,11 @@ class Surfaces {
     value->SetName(name);
     lumen->SetName("true lumen");
   }
-  void add(const std::vector<CutTriangle>& surface, double number, int in_true_lumen) {
+  void add(const std::vector<analysis::CutTriangle>& surface, double number, int in_true_lumen) {
     for (const auto& t : surface) {
       vtkIdType corners[3];
       for (int i = 0; i < 3; ++i) {
-        const auto x = (1 / unit::mm) * position(t.nodes, t.corners[i], fields_);
+        const auto x = (1 / unit::mm) * analysis::position(t.nodes, t.corners[i], fields_);
         corners[i] = points->InsertNextPoint(x.x);
       }
       triangles->InsertNextCell(3, corners);
@@ -144,7 +144,7 @@ class Surfaces {
   }
 
  private:
-  NodalFields fields_;
+  analysis::NodalFields fields_;
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> triangles;
   vtkNew<vtkDoubleArray> value;

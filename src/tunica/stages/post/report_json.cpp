@@ -23,7 +23,7 @@ std::string key_of(std::string name) {
 
 std::string percentile_key(double p) { return fmt::format("p{:g}", p); }
 
-ordered_json pressures(const Course& c) {
+ordered_json pressures(const analysis::Course& c) {
   return {{"systolic_mmHg", c.largest / unit::mmHg},
           {"diastolic_mmHg", c.smallest / unit::mmHg},
           {"mean_mmHg", c.mean / unit::mmHg}};
@@ -38,19 +38,19 @@ ordered_json openings(const Findings& f) {
   double outflow = 0;
   const auto& inlet = f.data.faces[f.vessel.inlet].name;
   for (const auto& o : f.openings)
-    if (o.name != inlet) outflow += course(o.times, o.flow).mean;
+    if (o.name != inlet) outflow += analysis::course(o.times, o.flow).mean;
   for (std::size_t k = 0; k < f.openings.size(); ++k) {
     const auto& o = f.openings[k];
-    const auto flow = course(o.times, o.flow);
+    const auto flow = analysis::course(o.times, o.flow);
     ordered_json entry = {{"name", o.name},
                           {"inlet", o.name == inlet},
-                          {"pressure", pressures(course(o.times, o.pressure))},
+                          {"pressure", pressures(analysis::course(o.times, o.pressure))},
                           {"flow_outwards",
                            {{"mean_ml_s", flow.mean / unit::ml},
                             {"largest_ml_s", flow.largest / unit::ml},
                             {"smallest_ml_s", flow.smallest / unit::ml}}}};
     if (o.name != inlet) entry["share_of_outflow"] = flow.mean / outflow;
-    if (!f.vessel.side.empty()) entry["lumen"] = lumen_names[f.vessel.openings[k].in_false_lumen ? 1 : 0];
+    if (!f.vessel.side.empty()) entry["lumen"] = analysis::lumen_names[f.vessel.openings[k].in_false_lumen ? 1 : 0];
     list.push_back(std::move(entry));
   }
   return list;
@@ -66,7 +66,7 @@ ordered_json wall_shear(const Findings& f) {
   for (std::size_t n = 0; n < area.size(); ++n) {
     if (area[n] == 0) continue;
     const double* s = f.fields.shear.data() + 4 * n;
-    const auto figures = shear_figures(s[0], {{s[1], s[2], s[3]}}, f.window.until - f.window.from);
+    const auto figures = analysis::shear_figures(s[0], {{s[1], s[2], s[3]}}, f.window.until - f.window.from);
     tawss.emplace_back(figures.tawss, area[n]);
     osi.emplace_back(figures.osi, area[n]);
     rrt.emplace_back(figures.rrt, area[n]);
@@ -76,7 +76,7 @@ ordered_json wall_shear(const Findings& f) {
   }
   const std::vector<double> percents = {5, 50, 95, 99};
   const auto shares = [&](const std::vector<std::pair<double, double>>& values) {
-    const auto found = percentiles(values, percents);
+    const auto found = analysis::percentiles(values, percents);
     ordered_json entry;
     for (std::size_t p = 0; p < percents.size(); ++p) entry[percentile_key(percents[p])] = found[p];
     return entry;
@@ -99,13 +99,15 @@ ordered_json stresses(const Findings& f) {
     ordered_json entry = {{"name", region.name}, {"volume_mm3", volume * 1e9}};
     for (std::size_t q = 0; q < f.frames.stresses().size(); ++q) {
       const auto& quantity = f.frames.stresses()[q];
-      const auto at_peak = f.figures.column(column::stress(region.name, quantity, "mean"))[peak];
+      const auto at_peak = f.figures.column(analysis::column::stress(region.name, quantity, "mean"))[peak];
       if (std::isnan(at_peak)) continue;  // this region has no such fibres
-      const auto most = percentiles(f.frames.values_of_region(region, f.fields.max_stress[q]), f.settings.percentiles);
+      const auto most =
+          analysis::percentiles(f.frames.values_of_region(region, f.fields.max_stress[q]), f.settings.percentiles);
       ordered_json of_peak = {{"mean", at_peak / unit::kPa}}, of_cycle;
       for (std::size_t p = 0; p < most.size(); ++p) {
         const double percent = f.settings.percentiles[p];
-        const auto course = f.figures.column(column::stress(region.name, quantity, fmt::format("{:g}", percent)));
+        const auto course =
+            f.figures.column(analysis::column::stress(region.name, quantity, fmt::format("{:g}", percent)));
         of_peak[percentile_key(percent)] = course[peak] / unit::kPa;
         of_cycle[percentile_key(percent)] = most[p] / unit::kPa;
       }
@@ -124,19 +126,20 @@ ordered_json stations(const Findings& f) {
     std::array<std::vector<double>, 2> pressure;
     for (std::size_t k = 0; k < 2; ++k) {
       if (station.sections[k].empty()) continue;
-      pressure[k] = f.figures.column(column::station(s, k, "pressure"));
-      const auto area = course(f.times, f.figures.column(column::station(s, k, "area"))),
-                 flow = course(f.times, f.figures.column(column::station(s, k, "flow")));
-      entry[std::string(lumen_names[k]) + "_lumen"] = {{"pressure", pressures(course(f.times, pressure[k]))},
-                                                       {"area",
-                                                        {{"mean_mm2", area.mean / unit::mm2},
-                                                         {"largest_mm2", area.largest / unit::mm2},
-                                                         {"smallest_mm2", area.smallest / unit::mm2}}},
-                                                       {"flow_downstream_mean_ml_s", flow.mean / unit::ml}};
+      pressure[k] = f.figures.column(analysis::column::station(s, k, "pressure"));
+      const auto area = analysis::course(f.times, f.figures.column(analysis::column::station(s, k, "area"))),
+                 flow = analysis::course(f.times, f.figures.column(analysis::column::station(s, k, "flow")));
+      entry[std::string(analysis::lumen_names[k]) + "_lumen"] = {
+          {"pressure", pressures(analysis::course(f.times, pressure[k]))},
+          {"area",
+           {{"mean_mm2", area.mean / unit::mm2},
+            {"largest_mm2", area.largest / unit::mm2},
+            {"smallest_mm2", area.smallest / unit::mm2}}},
+          {"flow_downstream_mean_ml_s", flow.mean / unit::ml}};
     }
     if (!pressure[0].empty() && !pressure[1].empty()) {
       for (std::size_t k = 0; k < pressure[0].size(); ++k) pressure[0][k] -= pressure[1][k];
-      const auto difference = course(f.times, pressure[0]);
+      const auto difference = analysis::course(f.times, pressure[0]);
       entry["true_minus_false_pressure"] = {{"mean_mmHg", difference.mean / unit::mmHg},
                                             {"largest_mmHg", difference.largest / unit::mmHg},
                                             {"smallest_mmHg", difference.smallest / unit::mmHg}};
@@ -150,7 +153,7 @@ ordered_json tears(const Findings& f) {
   ordered_json list = ordered_json::array();
   for (std::size_t k = 0; k < f.vessel.tears.size(); ++k) {
     const auto& tear = f.vessel.tears[k];
-    const auto flow = course(f.times, f.figures.column(column::tear(tear.name, "flow")));
+    const auto flow = analysis::course(f.times, f.figures.column(analysis::column::tear(tear.name, "flow")));
     list.push_back({{"name", tear.name},
                     {"entry", k == f.entry_tear()},
                     {"centre_mm", vector_mm(tear.centre)},
@@ -167,7 +170,7 @@ ordered_json tears(const Findings& f) {
 }
 
 ordered_json false_lumen(const Findings& f) {
-  const auto volume = course(f.times, f.figures.column(column::false_volume));
+  const auto volume = analysis::course(f.times, f.figures.column(analysis::column::false_volume));
   ordered_json report = {{"volume",
                           {{"mean_ml", volume.mean / unit::ml},
                            {"largest_ml", volume.largest / unit::ml},
@@ -177,21 +180,21 @@ ordered_json false_lumen(const Findings& f) {
     if (o.in_false_lumen) report["openings"].push_back(o.name);
   if (f.vessel.tears.empty()) return report;
   const auto& entry = f.vessel.tears[f.entry_tear()];
-  const auto flow = course(f.times, f.figures.column(column::tear(entry.name, "flow")));
+  const auto flow = analysis::course(f.times, f.figures.column(analysis::column::tear(entry.name, "flow")));
   report["entry_tear"] = entry.name;
   report["ejection_fraction"] = flow.backward / flow.forward;
   // Eq. (10.6): what goes in, less what goes out, less what stays.
   const auto in = f.flow_through_tears(), out = f.flow_out_of_false_lumen(),
-             rate = f.figures.column(column::false_volume_rate);
+             rate = f.figures.column(analysis::column::false_volume_rate);
   std::vector<double> rest;
   double largest_flow = 0, largest_rest = 0, squares = 0;
-  const auto weights = trapezoid_weights(f.times);
+  const auto weights = analysis::trapezoid_weights(f.times);
   for (std::size_t k = 0; k < in.size(); ++k) {
     rest.push_back(in[k] - out[k] - rate[k]);
     largest_rest = std::max(largest_rest, std::abs(rest.back()));
     squares += weights[k] * rest.back() * rest.back();
     for (const auto& tear : f.vessel.tears)
-      largest_flow = std::max(largest_flow, std::abs(f.figures.column(column::tear(tear.name, "flow"))[k]));
+      largest_flow = std::max(largest_flow, std::abs(f.figures.column(analysis::column::tear(tear.name, "flow"))[k]));
   }
   report["mass_balance"] = {{"largest_flow_through_a_tear_ml_s", largest_flow / unit::ml},
                             {"largest_residual_ml_s", largest_rest / unit::ml},
@@ -201,8 +204,8 @@ ordered_json false_lumen(const Findings& f) {
 }
 
 ordered_json flap(const Findings& f) {
-  const auto mean = course(f.times, f.figures.column(column::flap_mean)),
-             largest = course(f.times, f.figures.column(column::flap_largest));
+  const auto mean = analysis::course(f.times, f.figures.column(analysis::column::flap_mean)),
+             largest = analysis::course(f.times, f.figures.column(analysis::column::flap_largest));
   return {{"region", f.settings.flap},
           {"relative_to_s", f.times.front()},
           {"largest_displacement_mm", largest.largest / unit::mm},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tunica/stages/plot.hpp"
+#include "tunica/drawing/plot.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 
@@ -25,7 +25,7 @@ class Plots {
   Plots(const Findings& f, const std::filesystem::path& folder) : f_(f), folder_(folder) {}
 
   void openings() {
-    std::vector<Series> pressure, flow;
+    std::vector<drawing::Series> pressure, flow;
     for (const auto& o : f_.openings) {
       pressure.push_back({.name = o.name, .x = o.times, .y = scaled(o.pressure, unit::mmHg)});
       flow.push_back({.name = o.name, .x = o.times, .y = scaled(o.flow, unit::ml)});
@@ -37,14 +37,15 @@ class Plots {
   /// Mean over the window and its extremes along the aorta, one curve for each lumen.
   void along(const std::string& file, const char* what, const std::string& title, const std::string& label,
              double unit) {
-    std::vector<Series> series;
+    std::vector<drawing::Series> series;
     for (std::size_t lumen = 0; lumen < 2; ++lumen) {
-      Series mean{.name = fmt::format("{} lumen", lumen_names[lumen])}, high{.dashed = true}, low{.dashed = true};
+      drawing::Series mean{.name = fmt::format("{} lumen", analysis::lumen_names[lumen])}, high{.dashed = true},
+          low{.dashed = true};
       if (f_.vessel.side.empty()) mean.name = "lumen";
       mean.colour = high.colour = low.colour = static_cast<int>(lumen);
       for (std::size_t s = 0; s < f_.vessel.stations.size(); ++s) {
         if (f_.vessel.stations[s].sections[lumen].empty()) continue;
-        const auto c = course(f_.times, f_.figures.column(column::station(s, lumen, what)));
+        const auto c = analysis::course(f_.times, f_.figures.column(analysis::column::station(s, lumen, what)));
         for (auto* curve : {&mean, &high, &low}) curve->x.push_back(f_.vessel.stations[s].distance / unit::mm);
         mean.y.push_back(c.mean / unit);
         high.y.push_back(c.largest / unit);
@@ -57,18 +58,19 @@ class Plots {
   }
 
   void pressure_difference() {
-    Series mean{.name = "mean"}, high{.name = "largest", .dashed = true}, low{.name = "smallest", .dashed = true};
-    std::vector<Series> in_time;
+    drawing::Series mean{.name = "mean"}, high{.name = "largest", .dashed = true},
+        low{.name = "smallest", .dashed = true};
+    std::vector<drawing::Series> in_time;
     std::vector<std::size_t> both;
     for (std::size_t s = 0; s < f_.vessel.stations.size(); ++s)
       if (!f_.vessel.stations[s].sections[0].empty() && !f_.vessel.stations[s].sections[1].empty()) both.push_back(s);
     if (both.empty()) return;
     const auto every = (both.size() + 4) / 5;
     for (std::size_t k = 0; k < both.size(); ++k) {
-      auto difference = f_.figures.column(column::station(both[k], 0, "pressure"));
-      const auto other = f_.figures.column(column::station(both[k], 1, "pressure"));
+      auto difference = f_.figures.column(analysis::column::station(both[k], 0, "pressure"));
+      const auto other = f_.figures.column(analysis::column::station(both[k], 1, "pressure"));
       for (std::size_t i = 0; i < other.size(); ++i) difference[i] = (difference[i] - other[i]) / unit::mmHg;
-      const auto c = course(f_.times, difference);
+      const auto c = analysis::course(f_.times, difference);
       const double at = f_.vessel.stations[both[k]].distance / unit::mm;
       for (auto* curve : {&mean, &high, &low}) curve->x.push_back(at);
       mean.y.push_back(c.mean);
@@ -83,12 +85,12 @@ class Plots {
 
   /// The tears that carry the most, in their order along the aorta.
   void tears() {
-    std::vector<Series> series;
+    std::vector<drawing::Series> series;
     std::vector<std::pair<double, std::size_t>> by_flow;
     for (const auto& tear : f_.vessel.tears) {
       series.push_back({.name = tear.name,
                         .x = f_.times,
-                        .y = scaled(f_.figures.column(column::tear(tear.name, "flow")), unit::ml)});
+                        .y = scaled(f_.figures.column(analysis::column::tear(tear.name, "flow")), unit::ml)});
       double largest = 0;
       for (const double flow : series.back().y) largest = std::max(largest, std::abs(flow));
       by_flow.emplace_back(largest, by_flow.size());
@@ -98,25 +100,26 @@ class Plots {
       series[by_flow.front().second].y.clear();
       by_flow.erase(by_flow.begin());
     }
-    std::erase_if(series, [](const Series& curve) { return curve.y.empty(); });
+    std::erase_if(series, [](const drawing::Series& curve) { return curve.y.empty(); });
     series.push_back({.name = "out by openings", .x = f_.times, .y = scaled(f_.flow_out_of_false_lumen(), unit::ml)});
     series.push_back({.name = "dV/dt of the false lumen",
                       .x = f_.times,
-                      .y = scaled(f_.figures.column(column::false_volume_rate), unit::ml),
+                      .y = scaled(f_.figures.column(analysis::column::false_volume_rate), unit::ml),
                       .dashed = true});
     write("tears.svg", series, "Flow through the tears into the false lumen", "time [s]", "flow [ml/s]");
   }
 
   void flap() {
-    write("flap.svg",
-          {{.name = "mean", .x = f_.times, .y = scaled(f_.figures.column(column::flap_mean), unit::mm)},
-           {.name = "largest", .x = f_.times, .y = scaled(f_.figures.column(column::flap_largest), unit::mm)}},
-          "Displacement of the flap since the start of the window", "time [s]", "displacement [mm]");
+    write(
+        "flap.svg",
+        {{.name = "mean", .x = f_.times, .y = scaled(f_.figures.column(analysis::column::flap_mean), unit::mm)},
+         {.name = "largest", .x = f_.times, .y = scaled(f_.figures.column(analysis::column::flap_largest), unit::mm)}},
+        "Displacement of the flap since the start of the window", "time [s]", "displacement [mm]");
   }
 
   /// The highest percentile of the first quantity, region by region.
   void stress() {
-    std::vector<Series> series;
+    std::vector<drawing::Series> series;
     const double p = *std::max_element(f_.settings.percentiles.begin(), f_.settings.percentiles.end());
     const auto& quantity = f_.frames.stresses().front();
     for (const auto& region : f_.data.regions)
@@ -124,16 +127,17 @@ class Plots {
         series.push_back(
             {.name = region.name,
              .x = f_.times,
-             .y = scaled(f_.figures.column(column::stress(region.name, quantity, fmt::format("{:g}", p))), unit::kPa)});
+             .y = scaled(f_.figures.column(analysis::column::stress(region.name, quantity, fmt::format("{:g}", p))),
+                         unit::kPa)});
     write("stress.svg", series, fmt::format("{:g} % of the volume lie below", p), "time [s]", quantity + " [kPa]");
   }
 
   std::vector<std::string> files;
 
  private:
-  void write(const std::string& name, const std::vector<Series>& series, const std::string& title,
+  void write(const std::string& name, const std::vector<drawing::Series>& series, const std::string& title,
              const std::string& x_label, const std::string& y_label) {
-    write_plot((folder_ / name).string(), series, {.title = title, .x_label = x_label, .y_label = y_label});
+    drawing::write_plot((folder_ / name).string(), series, {.title = title, .x_label = x_label, .y_label = y_label});
     files.push_back(name);
   }
 

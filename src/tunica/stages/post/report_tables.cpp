@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tunica/mesh/series_file.hpp"
+#include "tunica/files/series_file.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 
@@ -44,13 +44,13 @@ Table table_in_time(const Findings& f) {
 Table tears(const Findings& f) {
   Table table = table_in_time(f);
   for (const auto& tear : f.vessel.tears) {
-    table.add(tear.name + " flow [ml/s]", f.figures.column(column::tear(tear.name, "flow")), unit::ml);
-    table.add(tear.name + " area [mm^2]", f.figures.column(column::tear(tear.name, "area")), unit::mm2);
+    table.add(tear.name + " flow [ml/s]", f.figures.column(analysis::column::tear(tear.name, "flow")), unit::ml);
+    table.add(tear.name + " area [mm^2]", f.figures.column(analysis::column::tear(tear.name, "area")), unit::mm2);
   }
   table.add("out of false lumen by its openings [ml/s]", f.flow_out_of_false_lumen(), unit::ml);
-  table.add("false lumen dV/dt [ml/s]", f.figures.column(column::false_volume_rate), unit::ml);
-  table.add("false lumen volume [ml]", f.figures.column(column::false_volume), unit::ml);
-  table.add("true lumen volume [ml]", f.figures.column(column::true_volume), unit::ml);
+  table.add("false lumen dV/dt [ml/s]", f.figures.column(analysis::column::false_volume_rate), unit::ml);
+  table.add("false lumen volume [ml]", f.figures.column(analysis::column::false_volume), unit::ml);
+  table.add("true lumen volume [ml]", f.figures.column(analysis::column::true_volume), unit::ml);
   return table;
 }
 
@@ -60,7 +60,7 @@ Table along_and_in_time(const Findings& f, std::size_t lumen, const char* what, 
   for (std::size_t s = 0; s < f.vessel.stations.size(); ++s)
     if (!f.vessel.stations[s].sections[lumen].empty())
       table.add(fmt::format("{:g} mm {}", f.vessel.stations[s].distance / unit::mm, label),
-                f.figures.column(column::station(s, lumen, what)), unit);
+                f.figures.column(analysis::column::station(s, lumen, what)), unit);
   return table;
 }
 
@@ -69,8 +69,8 @@ Table pressure_difference(const Findings& f) {
   for (std::size_t s = 0; s < f.vessel.stations.size(); ++s) {
     const auto& station = f.vessel.stations[s];
     if (station.sections[0].empty() || station.sections[1].empty()) continue;
-    auto difference = f.figures.column(column::station(s, 0, "pressure"));
-    const auto other = f.figures.column(column::station(s, 1, "pressure"));
+    auto difference = f.figures.column(analysis::column::station(s, 0, "pressure"));
+    const auto other = f.figures.column(analysis::column::station(s, 1, "pressure"));
     for (std::size_t k = 0; k < other.size(); ++k) difference[k] -= other[k];
     table.add(fmt::format("{:g} mm [mmHg]", station.distance / unit::mm), difference, unit::mmHg);
   }
@@ -93,16 +93,17 @@ Table stations(const Findings& f) {
   for (std::size_t lumen = 0; lumen < 2; ++lumen) {
     if (lumen == 1 && f.vessel.side.empty()) continue;
     const auto add = [&](const char* what, const char* label, double unit) {
-      const auto statistic = [&](const char* name, double Course::*member) {
-        table.add(fmt::format("{} {} {} [{}]", lumen_names[lumen], what, name, label), of_stations([&](auto s) {
-                    if (f.vessel.stations[s].sections[lumen].empty()) return std::nan("");
-                    return course(f.times, f.figures.column(column::station(s, lumen, what))).*member;
-                  }),
-                  unit);
+      const auto statistic = [&](const char* name, double analysis::Course::*member) {
+        table.add(
+            fmt::format("{} {} {} [{}]", analysis::lumen_names[lumen], what, name, label), of_stations([&](auto s) {
+              if (f.vessel.stations[s].sections[lumen].empty()) return std::nan("");
+              return analysis::course(f.times, f.figures.column(analysis::column::station(s, lumen, what))).*member;
+            }),
+            unit);
       };
-      statistic("mean", &Course::mean);
-      statistic("largest", &Course::largest);
-      statistic("smallest", &Course::smallest);
+      statistic("mean", &analysis::Course::mean);
+      statistic("largest", &analysis::Course::largest);
+      statistic("smallest", &analysis::Course::smallest);
     };
     add("area", "mm^2", unit::mm2);
     add("pressure", "mmHg", unit::mmHg);
@@ -116,10 +117,10 @@ Table stress(const Findings& f) {
   for (const auto& region : f.data.regions) {
     if (region.kind != mesh::RegionKind::wall) continue;
     for (const auto& quantity : f.frames.stresses()) {
-      if (std::isnan(f.figures.column(column::stress(region.name, quantity, "mean"))[0])) continue;
+      if (std::isnan(f.figures.column(analysis::column::stress(region.name, quantity, "mean"))[0])) continue;
       for (const double p : f.settings.percentiles)
         table.add(fmt::format("{} {} p{:g} [kPa]", region.name, quantity, p),
-                  f.figures.column(column::stress(region.name, quantity, fmt::format("{:g}", p))), unit::kPa);
+                  f.figures.column(analysis::column::stress(region.name, quantity, fmt::format("{:g}", p))), unit::kPa);
     }
   }
   return table;
@@ -130,13 +131,13 @@ Table stress(const Findings& f) {
 std::vector<std::string> write_tables(const Findings& f, const std::filesystem::path& folder) {
   std::vector<std::string> files;
   const auto write = [&](const std::string& name, const Table& table) {
-    mesh::write_atomically(folder / name, table.text());
+    files::write_atomically(folder / name, table.text());
     files.push_back(name);
   };
   if (f.has_stations()) {
     write("stations.csv", stations(f));
     for (std::size_t lumen = 0; lumen < (f.vessel.side.empty() ? 1U : 2U); ++lumen) {
-      const std::string name = lumen_names[lumen];
+      const std::string name = analysis::lumen_names[lumen];
       write(name + "_pressure.csv", along_and_in_time(f, lumen, "pressure", "[mmHg]", unit::mmHg));
       write(name + "_area.csv", along_and_in_time(f, lumen, "area", "[mm^2]", unit::mm2));
       write(name + "_flow.csv", along_and_in_time(f, lumen, "flow", "[ml/s]", unit::ml));
@@ -146,8 +147,8 @@ std::vector<std::string> write_tables(const Findings& f, const std::filesystem::
   if (!f.vessel.side.empty()) write("tears.csv", tears(f));
   if (f.has_flap()) {
     Table table = table_in_time(f);
-    table.add("mean displacement [mm]", f.figures.column(column::flap_mean), unit::mm);
-    table.add("largest displacement [mm]", f.figures.column(column::flap_largest), unit::mm);
+    table.add("mean displacement [mm]", f.figures.column(analysis::column::flap_mean), unit::mm);
+    table.add("largest displacement [mm]", f.figures.column(analysis::column::flap_largest), unit::mm);
     write("flap.csv", table);
   }
   if (!f.frames.stresses().empty()) write("stress.csv", stress(f));

@@ -5,24 +5,24 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tunica/artifacts/checkpoint.hpp"
+#include "tunica/artifacts/fields.hpp"
+#include "tunica/artifacts/histories.hpp"
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/artifacts/prestress_file.hpp"
+#include "tunica/artifacts/problem_input.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/drawing/plot.hpp"
+#include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/series_file.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
 #include "tunica/parallel/progress.hpp"
-#include "tunica/stages/checkpoint.hpp"
-#include "tunica/stages/fields.hpp"
-#include "tunica/stages/histories.hpp"
-#include "tunica/stages/load_mesh.hpp"
-#include "tunica/stages/plot.hpp"
-#include "tunica/stages/prestress/prestress_file.hpp"
 #include "tunica/stages/prestress/steady_flow.hpp"
-#include "tunica/stages/problem_input.hpp"
 #include "tunica/wall/surface.hpp"
 
 namespace tunica::stages {
@@ -36,7 +36,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* report_file = "prestress.json";
 
-parallel::NodeOrder node_order(const mesh::DistributedMesh& mesh) {
+parallel::NodeOrder node_order(const distributed::DistributedMesh& mesh) {
   return {mesh.comm, std::span(mesh.original_ids).first(static_cast<std::size_t>(mesh.owned_nodes)), mesh.global_nodes};
 }
 
@@ -55,9 +55,9 @@ std::vector<std::string> faces_of(const mesh::MeshData& data) {
 }
 
 /// The flow of a case alone, between rigid walls, with steady conditions.
-Case flow_case(const Case& c, const FaceConditions& conditions) {
-  Case flow = c;
-  flow.analysis = RigidFlow{};
+case_file::Case flow_case(const case_file::Case& c, const FaceConditions& conditions) {
+  case_file::Case flow = c;
+  flow.analysis = case_file::RigidFlow{};
   flow.wall.reset();
   flow.mesh_motion.reset();
   flow.meshes.interface.reset();
@@ -67,9 +67,9 @@ Case flow_case(const Case& c, const FaceConditions& conditions) {
 }
 
 /// The wall of a case alone, in equilibrium with its loads.
-Case wall_case(const Case& c, const std::vector<std::string>& wall_faces) {
-  Case wall = c;
-  wall.analysis = StaticWall{};
+case_file::Case wall_case(const case_file::Case& c, const std::vector<std::string>& wall_faces) {
+  case_file::Case wall = c;
+  wall.analysis = case_file::StaticWall{};
   wall.fluid.reset();
   wall.mesh_motion.reset();
   wall.meshes.interface.reset();
@@ -80,7 +80,7 @@ Case wall_case(const Case& c, const std::vector<std::string>& wall_faces) {
 }
 
 /// A wall that inertia holds in a run may be loose in statics.
-void check_support(const Case& wall, const std::vector<std::string>& wall_faces,
+void check_support(const case_file::Case& wall, const std::vector<std::string>& wall_faces,
                    const std::vector<std::string>& interface_faces) {
   bc::BoundaryCase boundary;
   boundary.conditions = wall.boundary;
@@ -102,7 +102,7 @@ class PrestressRun {
   void prepare_folder();
   void find_flow();
   void take_steps_of_flow(coupling::Problem& problem);
-  void write_flow(const coupling::Problem& problem, const Case& flow);
+  void write_flow(const coupling::Problem& problem, const case_file::Case& flow);
   void take_forces(const coupling::Problem& problem);
   void find_wall();
   coupling::ProblemInput wall_input();
@@ -116,12 +116,12 @@ class PrestressRun {
   void write_start(const coupling::State& wall);
   void write_report(const coupling::PrestressResult& result);
 
-  const PrestressCase& settings() const { return *case_.prestress; }
+  const case_file::PrestressCase& settings() const { return *case_.prestress; }
   double per_si(const std::string& unit, const config::Dimension& dimension) const {
     return 1 / config::unit_factor(unit, dimension);
   }
-  mesh::ResultsOptions results_in(const char* folder) const {
-    mesh::ResultsOptions options{.directory = folder_ / folder};
+  distributed::ResultsOptions results_in(const char* folder) const {
+    distributed::ResultsOptions options{.directory = folder_ / folder};
     options.length_factor = per_si(case_.output.units.length, config::dimension::length);
     return options;
   }
@@ -129,22 +129,22 @@ class PrestressRun {
   MPI_Comm comm_;
   const PrestressRequest& request_;
   std::string text_;
-  Case case_;
+  case_file::Case case_;
   fs::path folder_;
   std::optional<parallel::Log> log_;
   double started_ = MPI_Wtime();
 
-  CheckedMesh whole_;  ///< rank 0
+  artifacts::CheckedMesh whole_;  ///< rank 0
   std::uint64_t mesh_hash_ = 0, lumen_hash_ = 0;
   mesh::Submesh lumen_part_, wall_part_;  ///< rank 0
   std::vector<std::string> wall_faces_, lumen_faces_, lumen_interface_, wall_interface_;
 
-  mesh::DistributedMesh lumen_, wall_;
+  distributed::DistributedMesh lumen_, wall_;
   coupling::State flow_;
   SteadyRecord steady_;
   std::vector<double> forces_;        ///< of the flow [N], and its pressure [Pa]; rank 0, [wall node in file order][4]
   std::vector<double> local_forces_;  ///< forces_ at the local nodes
-  std::optional<CsvTable> history_;   ///< rank 0
+  std::optional<artifacts::CsvTable> history_;  ///< rank 0
 };
 
 PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen)
@@ -162,7 +162,7 @@ PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::
 void PrestressRun::read() {
   parallel::on_root(comm_, [&] {
     text_ = config::read_text(request_.case_file);
-    auto parsed = read_case(request_.case_file);
+    auto parsed = case_file::read_case(request_.case_file);
     case_ = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) whole_.warnings.push_back(format(warning));
     if (!case_.prestress)
@@ -171,18 +171,18 @@ void PrestressRun::read() {
                                             : "add `prestress: {}`");
     if (case_.wall) case_.wall->prestress.reset();
     auto warnings = std::move(whole_.warnings);
-    whole_ = load_mesh(case_);
+    whole_ = artifacts::load_mesh(case_);
     whole_.warnings.insert(whole_.warnings.begin(), warnings.begin(), warnings.end());
-    mesh_hash_ = mesh_hash(whole_.data);
+    mesh_hash_ = artifacts::mesh_hash(whole_.data);
     lumen_part_ = mesh::submesh(whole_.data, RegionKind::lumen);
     wall_part_ = mesh::submesh(whole_.data, RegionKind::wall);
-    lumen_hash_ = mesh_hash(lumen_part_.data);
+    lumen_hash_ = artifacts::mesh_hash(lumen_part_.data);
     lumen_faces_ = faces_of(lumen_part_.data);
     wall_faces_ = faces_of(wall_part_.data);
   });
   parallel::broadcast(comm_, text_);
-  if (parallel::rank(comm_) != 0) case_ = parse_case(text_, request_.case_file);
-  name_faces(case_, whole_, comm_);
+  if (parallel::rank(comm_) != 0) case_ = case_file::parse_case(text_, request_.case_file);
+  artifacts::name_faces(case_, whole_, comm_);
   if (case_.wall) case_.wall->prestress.reset();
   parallel::broadcast(comm_, mesh_hash_);
   parallel::broadcast(comm_, lumen_hash_);
@@ -213,10 +213,10 @@ void PrestressRun::prepare_folder() {
 }
 
 void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
-  SteadyFlow flow = *settings().flow;
+  case_file::SteadyFlow flow = *settings().flow;
   const fs::path file = folder_ / "flow.checkpoint";
   if (request_.keep_flow) {
-    flow_ = read_checkpoint(file, lumen_, flow_, lumen_hash_).state;
+    flow_ = artifacts::read_checkpoint(file, lumen_, flow_, lumen_hash_).state;
     flow.steps = 1;  // the last one again, for the forces, which belong to a step
     flow.step = flow_.dt;
   }
@@ -240,12 +240,12 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
         fmt::format("the flow is not steady: asked were changes of {:.1e} in a step. The prestress belongs "
                     "to its last instant",
                     flow.tolerance));
-  if (!request_.keep_flow) write_checkpoint(file, lumen_, {before_last, {}, 0, lumen_hash_});
+  if (!request_.keep_flow) artifacts::write_checkpoint(file, lumen_, {before_last, {}, 0, lumen_hash_});
 }
 
-void PrestressRun::write_flow(const coupling::Problem& problem, const Case& flow) {
-  OutputFields fields(problem, flow);
-  mesh::ResultsWriter writer(lumen_, results_in("flow"));
+void PrestressRun::write_flow(const coupling::Problem& problem, const case_file::Case& flow) {
+  artifacts::OutputFields fields(problem, flow);
+  distributed::ResultsWriter writer(lumen_, results_in("flow"));
   fields.write(writer, steady_.step, steady_.time, flow_);
 }
 
@@ -267,11 +267,12 @@ void PrestressRun::take_forces(const coupling::Problem& problem) {
 
 void PrestressRun::find_flow() {
   const auto conditions = steady_conditions(case_.boundary, lumen_faces_, lumen_interface_, settings().flow.value());
-  const Case flow = flow_case(case_, conditions);
-  lumen_ = mesh::distribute(lumen_part_.data, comm_);
-  coupling::Problem problem(lumen_, problem_input(flow));
-  parallel::on_root(
-      comm_, [&] { mesh::write_atomically(folder_ / "boundary.yaml", conditions_text(conditions, lumen_interface_)); });
+  const case_file::Case flow = flow_case(case_, conditions);
+  lumen_ = distributed::distribute(lumen_part_.data, comm_);
+  coupling::Problem problem(lumen_, artifacts::problem_input(flow));
+  parallel::on_root(comm_, [&] {
+    files::write_atomically(folder_ / "boundary.yaml", conditions_text(conditions, lumen_interface_));
+  });
   flow_ = problem.initial_state();
   take_steps_of_flow(problem);
   write_flow(problem, flow);
@@ -281,7 +282,7 @@ void PrestressRun::find_flow() {
 // Pressure acts along the normal of the moved wall, and so does nearly all of the flow's forces. Were they held in
 // their directions, a flap between two lumens would tip over under the pair of pressures, (5.3).
 coupling::ProblemInput PrestressRun::wall_input() {
-  auto input = problem_input(wall_case(case_, wall_faces_));
+  auto input = artifacts::problem_input(wall_case(case_, wall_faces_));
   local_forces_.assign(at(wall_.nodes()), 0.0);
   if (!case_.solves_fluid()) return input;
   parallel::scatter_by_original_id(node_order(wall_), forces_, local_forces_, 4);
@@ -323,12 +324,12 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
   for (std::size_t k = 0; k < traction.size(); ++k)
     if (area[k / 4] > 0) traction[k] = local_forces_[k] / area[k / 4];
   const std::string unit = case_.output.units.stress;
-  const mesh::NodalArray array{.name = fmt::format("traction [{}]", unit),
-                               .components = 3,
-                               .values = traction,
-                               .stride = 4,
-                               .factor = per_si(unit, config::dimension::pressure)};
-  mesh::ResultsWriter writer(problem.mesh(), results_in("traction"));
+  const distributed::NodalArray array{.name = fmt::format("traction [{}]", unit),
+                                      .components = 3,
+                                      .values = traction,
+                                      .stride = 4,
+                                      .factor = per_si(unit, config::dimension::pressure)};
+  distributed::ResultsWriter writer(problem.mesh(), results_in("traction"));
   writer.write(0, 0.0, std::span(&array, 1), {});
 }
 
@@ -350,18 +351,18 @@ void PrestressRun::follow(const coupling::PrestressRecord& r) {
 void PrestressRun::plot_history(const std::vector<coupling::PrestressRecord>& history) {
   const std::string unit = case_.output.units.length;
   const double factor = per_si(unit, config::dimension::length);
-  Series displacement{.name = "largest displacement", .x = {}, .y = {}, .markers = true},
+  drawing::Series displacement{.name = "largest displacement", .x = {}, .y = {}, .markers = true},
       asked{.name = "asked", .x = {}, .y = {}, .dashed = true};
   for (const auto& r : history) {
     displacement.x.push_back(r.iteration), displacement.y.push_back(factor * r.displacement);
     asked.x.push_back(r.iteration), asked.y.push_back(factor * settings().fixed_point.tolerance);
   }
   parallel::on_root(comm_, [&] {
-    write_plot((folder_ / "fixed_point.svg").string(), {displacement, asked},
-               {.title = "Fixed point of the prestress",
-                .x_label = "iteration",
-                .y_label = fmt::format("displacement under the load [{}]", unit),
-                .log_y = true});
+    drawing::write_plot((folder_ / "fixed_point.svg").string(), {displacement, asked},
+                        {.title = "Fixed point of the prestress",
+                         .x_label = "iteration",
+                         .y_label = fmt::format("displacement under the load [{}]", unit),
+                         .log_y = true});
   });
 }
 
@@ -375,12 +376,13 @@ void PrestressRun::write_prestress_file(const coupling::WallPrestress& prestress
     values.insert(values.end(), prestress.values[r].begin(), prestress.values[r].begin() + n * owned);
   }
   const auto all = parallel::gather_by_original_id({comm_, ids, wall_.global_elements}, values, n);
-  parallel::on_root(comm_, [&] { write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
+  parallel::on_root(comm_,
+                    [&] { artifacts::write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
 }
 
 void PrestressRun::write_stress(const coupling::Problem& problem, const coupling::State& state) {
-  OutputFields fields(problem, wall_case(case_, wall_faces_));
-  mesh::ResultsWriter writer(wall_, results_in("wall"));
+  artifacts::OutputFields fields(problem, wall_case(case_, wall_faces_));
+  distributed::ResultsWriter writer(wall_, results_in("wall"));
   fields.write(writer, 0, 0.0, state);
 }
 
@@ -396,8 +398,8 @@ void PrestressRun::write_start(const coupling::State& wall) {
       for (std::size_t c = 0; c < 4; ++c)
         all[4 * static_cast<std::size_t>(lumen_part_.nodes[k]) + c] = of_lumen[4 * k + c];
   });
-  const auto mesh = mesh::distribute(whole_.data, comm_);
-  Checkpoint start;
+  const auto mesh = distributed::distribute(whole_.data, comm_);
+  artifacts::Checkpoint start;
   start.mesh_hash = mesh_hash_;
   for (auto* field : {&start.state.velocity_pressure, &start.state.acceleration, &start.state.displacement,
                       &start.state.displacement_rate})
@@ -405,7 +407,7 @@ void PrestressRun::write_start(const coupling::State& wall) {
   parallel::scatter_by_original_id(node_order(mesh), all, start.state.velocity_pressure, 4);
   mesh.halo.update(start.state.velocity_pressure, 4);
   start.state.outlets = flow_.outlets;
-  write_checkpoint(folder_ / "start.checkpoint", mesh, start);
+  artifacts::write_checkpoint(folder_ / "start.checkpoint", mesh, start);
 }
 
 void PrestressRun::write_report(const coupling::PrestressResult& result) {
@@ -424,11 +426,11 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
                            {"change of velocity in the last step", steady_.velocity_change},
                            {"change of pressure in the last step", steady_.pressure_change}};
   json["seconds"] = MPI_Wtime() - started_;
-  parallel::on_root(comm_, [&] { mesh::write_atomically(folder_ / report_file, json.dump(2) + "\n"); });
+  parallel::on_root(comm_, [&] { files::write_atomically(folder_ / report_file, json.dump(2) + "\n"); });
 }
 
 void PrestressRun::find_wall() {
-  wall_ = mesh::distribute(wall_part_.data, comm_);
+  wall_ = distributed::distribute(wall_part_.data, comm_);
   coupling::Problem problem(wall_, wall_input());
   for (const auto& line : problem.wall_model().notes()) log_->info(line);
   if (case_.solves_fluid()) {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "tunica/stages/manifest.hpp"
+#include "tunica/artifacts/manifest.hpp"
 
 namespace tunica::stages {
 
@@ -16,7 +16,7 @@ struct PrestressRequest {
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results in the folder may be replaced
   bool keep_flow = false;                          ///< the steady flow in the folder is taken as it is
-  ProgramVersion program;
+  artifacts::ProgramVersion program;
 };
 
 /// Finds the prestress of the wall and writes into the folder of results:

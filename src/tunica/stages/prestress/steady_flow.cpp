@@ -26,7 +26,7 @@ double conductance(const bc::Condition& condition) {
   return 0.0;
 }
 
-void check_inflow(const FaceConditions& lumen, const SteadyFlow& flow) {
+void check_inflow(const FaceConditions& lumen, const case_file::SteadyFlow& flow) {
   std::vector<Problem> problems;
   int flows = 0;
   for (const auto& [face, condition] : lumen) {
@@ -46,7 +46,7 @@ void check_inflow(const FaceConditions& lumen, const SteadyFlow& flow) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-double largest(const mesh::DistributedMesh& mesh, const std::vector<double>& field, int begin, int end) {
+double largest(const distributed::DistributedMesh& mesh, const std::vector<double>& field, int begin, int end) {
   double result = 0.0;
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     for (int c = begin; c < end; ++c)
@@ -54,7 +54,8 @@ double largest(const mesh::DistributedMesh& mesh, const std::vector<double>& fie
   return parallel::global_max(mesh.comm, result);
 }
 
-SteadyRecord compare(const mesh::DistributedMesh& mesh, const coupling::State& before, const coupling::State& after) {
+SteadyRecord compare(const distributed::DistributedMesh& mesh, const coupling::State& before,
+                     const coupling::State& after) {
   std::vector<double> change = after.velocity_pressure;
   for (std::size_t k = 0; k < change.size(); ++k) change[k] -= before.velocity_pressure[k];
   SteadyRecord r{.time = after.time, .dt = after.dt};
@@ -69,7 +70,7 @@ SteadyRecord compare(const mesh::DistributedMesh& mesh, const coupling::State& b
 }  // namespace
 
 FaceConditions steady_conditions(const FaceConditions& of_case, const std::vector<std::string>& lumen_faces,
-                                 const std::vector<std::string>& interface_faces, const SteadyFlow& flow) {
+                                 const std::vector<std::string>& interface_faces, const case_file::SteadyFlow& flow) {
   FaceConditions lumen;
   for (const auto& face : of_case)
     if (contains(lumen_faces, face.first)) lumen.push_back(face);
@@ -105,7 +106,7 @@ std::string conditions_text(const FaceConditions& conditions, const std::vector<
   return text;
 }
 
-SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const SteadyFlow& flow,
+SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const case_file::SteadyFlow& flow,
                                  const std::function<void(const SteadyRecord&)>& follow) {
   SteadySteps steps;
   SteadyRecord& record = steps.last;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/case/case.hpp"
 #include "tunica/coupling/problem.hpp"
-#include "tunica/stages/case.hpp"
 
 namespace tunica::stages {
 
@@ -19,7 +19,7 @@ using FaceConditions = std::vector<std::pair<std::string, bc::Condition>>;
 /// sticks at the interface. Throws InputError where the case prescribes a velocity or a traction, has several faces
 /// with a flow, or the inflow is missing or not wanted.
 FaceConditions steady_conditions(const FaceConditions& of_case, const std::vector<std::string>& lumen_faces,
-                                 const std::vector<std::string>& interface_faces, const SteadyFlow& flow);
+                                 const std::vector<std::string>& interface_faces, const case_file::SteadyFlow& flow);
 
 /// The same as YAML for the section `boundary` of a case, without the interface.
 std::string conditions_text(const FaceConditions& conditions, const std::vector<std::string>& interface_faces);
@@ -38,7 +38,7 @@ struct SteadySteps {
 
 /// Steps `problem` from `state` until nothing changes or the steps are used up. A step that fails is halved; throws
 /// SolverError after six halvings. Collective.
-SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const SteadyFlow& flow,
+SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const case_file::SteadyFlow& flow,
                                  const std::function<void(const SteadyRecord&)>& follow);
 
 /// Forces of the flow on the nodes of the vessel's inside [N], [local node][4], in the step that `problem` last

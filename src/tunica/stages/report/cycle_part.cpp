@@ -1,7 +1,7 @@
 // Figures of a cycle, as docs/post.md lays them out.
 #include <fmt/format.h>
 
-#include "tunica/stages/page.hpp"
+#include "tunica/drawing/page.hpp"
 #include "tunica/stages/report/parts.hpp"
 
 namespace tunica::stages::report {
@@ -23,7 +23,7 @@ std::string list_table(const json& list, const Columns& columns) {
     auto& cells = rows.emplace_back();
     for (const auto& [heading, path] : columns) cells.push_back(figure(at(entry, path)));
   }
-  return page::table(head, rows);
+  return drawing::page::table(head, rows);
 }
 
 std::string openings(const json& post) {
@@ -52,26 +52,27 @@ std::string tears(const json& post) {
                                                 {"largest", "flow_into_false_lumen/largest_ml_s"},
                                                 {"smallest", "flow_into_false_lumen/smallest_ml_s"}});
   const json lumen = at(post, "false_lumen");
-  return text +
-         page::table({"false lumen", ""}, {{"ejection fraction (0 to 1)", figure(at(lumen, "ejection_fraction"))},
-                                           {"mean volume [ml]", figure(at(lumen, "volume/mean_ml"))},
-                                           {"largest volume [ml]", figure(at(lumen, "volume/largest_ml"))},
-                                           {"smallest volume [ml]", figure(at(lumen, "volume/smallest_ml"))},
-                                           {"largest residual of its mass balance [ml/s]",
-                                            figure(at(lumen, "mass_balance/largest_residual_ml_s"))},
-                                           {"the same, of the largest flow through a tear",
-                                            figure(at(lumen, "mass_balance/largest_residual_of_largest_flow"))}});
+  return text + drawing::page::table({"false lumen", ""},
+                                     {{"ejection fraction (0 to 1)", figure(at(lumen, "ejection_fraction"))},
+                                      {"mean volume [ml]", figure(at(lumen, "volume/mean_ml"))},
+                                      {"largest volume [ml]", figure(at(lumen, "volume/largest_ml"))},
+                                      {"smallest volume [ml]", figure(at(lumen, "volume/smallest_ml"))},
+                                      {"largest residual of its mass balance [ml/s]",
+                                       figure(at(lumen, "mass_balance/largest_residual_ml_s"))},
+                                      {"the same, of the largest flow through a tear",
+                                       figure(at(lumen, "mass_balance/largest_residual_of_largest_flow"))}});
 }
 
 std::string flap(const json& post) {
   const json f = at(post, "flap");
   if (f.is_null()) return "";
   return "<h3>Flap</h3>\n" +
-         page::table({"displacement since the start of the window", ""},
-                     {{"largest [mm]", figure(at(f, "largest_displacement_mm"))},
-                      {"at [s]", figure(at(f, "time_of_largest_s"))},
-                      {"largest mean over the flap [mm]", figure(at(f, "largest_mean_displacement_mm"))},
-                      {"mean over flap and cycle [mm]", figure(at(f, "mean_displacement_over_the_cycle_mm"))}});
+         drawing::page::table(
+             {"displacement since the start of the window", ""},
+             {{"largest [mm]", figure(at(f, "largest_displacement_mm"))},
+              {"at [s]", figure(at(f, "time_of_largest_s"))},
+              {"largest mean over the flap [mm]", figure(at(f, "largest_mean_displacement_mm"))},
+              {"mean over flap and cycle [mm]", figure(at(f, "mean_displacement_over_the_cycle_mm"))}});
 }
 
 std::string wall_shear(const json& post) {
@@ -83,7 +84,8 @@ std::string wall_shear(const json& post) {
     for (const char* share : {"mean", "p5", "p50", "p95", "p99"})
       cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))));
   }
-  return "<h3>Wall shear</h3>\n" + page::table({"by area of the wall", "mean", "5 %", "median", "95 %", "99 %"}, rows);
+  return "<h3>Wall shear</h3>\n" +
+         drawing::page::table({"by area of the wall", "mean", "5 %", "median", "95 %", "99 %"}, rows);
 }
 
 /// "von_mises_stress_kPa" -> "von mises stress [kPa]".
@@ -102,7 +104,8 @@ std::string stress(const json& post) {
     for (const auto& [key, values] : region.items()) {
       if (!values.is_object()) continue;
       head = {"region", "stress"};
-      std::vector<std::string> cells = {page::escaped(region.value("name", "")), page::escaped(name_of(key))};
+      std::vector<std::string> cells = {drawing::page::escaped(region.value("name", "")),
+                                        drawing::page::escaped(name_of(key))};
       for (const auto& [when, label] :
            {std::pair{"at_peak", "at peak pressure"}, {"cycle_maximum", "largest of the cycle"}})
         for (const auto& [percent, value] : values[when].items()) {
@@ -111,7 +114,7 @@ std::string stress(const json& post) {
         }
       rows.push_back(cells);
     }
-  return "<h3>Stress in the wall, percentiles by volume</h3>\n" + page::table(head, rows);
+  return "<h3>Stress in the wall, percentiles by volume</h3>\n" + drawing::page::table(head, rows);
 }
 
 std::string difference(const json& post) {

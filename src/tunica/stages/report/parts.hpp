@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tunica/stages/phases.hpp"
+#include "tunica/files/phases.hpp"
 #include "tunica/stages/report/report.hpp"
 
 namespace tunica::stages::report {
@@ -33,13 +33,13 @@ std::string missing(const std::string& what, const std::string& why);
 std::string drawings(const std::filesystem::path& folder,
                      const std::vector<std::pair<std::string, std::string>>& captions_by_file);
 
-std::string summary_part(const Results& r, const ProgramVersion& program);
+std::string summary_part(const Results& r, const artifacts::ProgramVersion& program);
 std::string mesh_part(const Results& r);
 std::string fibres_part(const Results& r);
 std::string prestress_part(const Results& r);
 std::string outlets_part(const Results& r);
 std::string run_part(const Results& r);
 std::string cycle_part(const Results& r);
-std::string pictures_part(const Results& r, const Say& say);
+std::string pictures_part(const Results& r, const files::Say& say);
 
 }  // namespace tunica::stages::report

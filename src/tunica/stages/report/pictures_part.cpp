@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "tunica/base/error.hpp"
-#include "tunica/stages/page.hpp"
-#include "tunica/stages/picture.hpp"
+#include "tunica/drawing/page.hpp"
+#include "tunica/drawing/picture.hpp"
 #include "tunica/stages/report/parts.hpp"
 
 namespace tunica::stages::report {
@@ -24,7 +24,7 @@ Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
 
 /// The plane in which a curved vessel lies: through the middle of its stations, normal to the direction in which they
 /// are spread least, found by power iteration on the matrix that turns the order of its eigenvalues round.
-std::optional<ClipPlane> plane_of(const std::vector<Vec3<double>>& places) {
+std::optional<drawing::ClipPlane> plane_of(const std::vector<Vec3<double>>& places) {
   if (places.size() < 3) return std::nullopt;
   Vec3<double> middle{};
   for (const auto& p : places) middle = middle + (1.0 / static_cast<double>(places.size())) * p;
@@ -39,7 +39,7 @@ std::optional<ClipPlane> plane_of(const std::vector<Vec3<double>>& places) {
   for (int i = 0; i < 3; ++i) spread(i, i) += trace;
   Vec3<double> normal = unit(Vec3<double>{{0.6, 0.7, 0.4}});
   for (int k = 0; k < 200; ++k) normal = unit(spread * normal);
-  return ClipPlane{middle, normal};
+  return drawing::ClipPlane{middle, normal};
 }
 
 /// The few extreme values at edges would make one colour of all the others.
@@ -53,8 +53,8 @@ struct Scene {
   std::vector<std::string> lumen, wall;  ///< series of fields
   std::optional<double> peak;            ///< s
   std::string shear;                     ///< wall_shear.vtp
-  std::optional<ClipPlane> plane;
-  std::vector<std::pair<std::string, ClipPlane>> cuts;  ///< across the vessel, at places of interest
+  std::optional<drawing::ClipPlane> plane;
+  std::vector<std::pair<std::string, drawing::ClipPlane>> cuts;  ///< across the vessel, at places of interest
 };
 
 /// `per_mm`: units of the fields in a millimetre.
@@ -72,9 +72,9 @@ void add_cuts(const json& post, double per_mm, Scene& scene) {
         centres.begin();
     const auto from = std::max<std::ptrdiff_t>(0, nearest - 1),
                to = std::min<std::ptrdiff_t>(std::ssize(centres) - 1, nearest + 1);
-    scene.cuts.emplace_back(
-        tear.value("name", "tear"),
-        ClipPlane{place, unit(centres[static_cast<std::size_t>(to)] - centres[static_cast<std::size_t>(from)])});
+    scene.cuts.emplace_back(tear.value("name", "tear"),
+                            drawing::ClipPlane{place, unit(centres[static_cast<std::size_t>(to)] -
+                                                           centres[static_cast<std::size_t>(from)])});
   }
 }
 
@@ -96,35 +96,35 @@ Scene scene_of(const Results& r) {
 /// Draws one picture after the other into the page.
 class Album {
  public:
-  Album(const fs::path& folder, const Say& say) : file_((folder / "picture.png").string()), say_(say) {}
+  Album(const fs::path& folder, const files::Say& say) : file_((folder / "picture.png").string()), say_(say) {}
   ~Album() {
     std::error_code ignored;
     fs::remove(file_, ignored);
   }
 
   /// A picture that cannot be drawn, as one of an array that the results do not hold, is named with the reason.
-  void add(PictureOptions options, const std::string& caption) {
+  void add(drawing::PictureOptions options, const std::string& caption) {
     options.output = file_;
     say_("picture: " + caption);
     try {
-      render(options);
+      drawing::render(options);
     } catch (const InputError& error) {
       text += missing(caption, error.what());
       return;
     }
     std::ifstream stream(file_, std::ios::binary);
-    text += page::picture(page::data_url({std::istreambuf_iterator<char>(stream), {}}), caption);
+    text += drawing::page::picture(drawing::page::data_url({std::istreambuf_iterator<char>(stream), {}}), caption);
   }
   std::string text;
 
  private:
   std::string file_;
-  Say say_;
+  files::Say say_;
 };
 
 void draw_fields(const Scene& scene, Album& album) {
   const auto of = [&](const std::vector<std::string>& inputs, const std::string& array) {
-    PictureOptions options;
+    drawing::PictureOptions options;
     options.inputs = inputs;
     options.array = array;
     options.time = scene.peak;
@@ -158,7 +158,7 @@ void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
     for (const auto& [inputs, array] :
          {std::pair{&scene.lumen, "velocity"}, std::pair{&scene.wall, "von Mises stress"}}) {
       if (inputs->empty()) continue;
-      PictureOptions options;
+      drawing::PictureOptions options;
       options.inputs = *inputs;
       options.array = array;
       options.time = scene.peak;
@@ -166,14 +166,14 @@ void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
       options.clip = plane;
       options.view = plane.normal;
       options.up = std::abs(unit(plane.normal)[2]) > 0.8 ? Vec3<double>{{0, 1, 0}} : Vec3<double>{{0, 0, 1}};
-      options.focus = Focus{plane.origin, 0.03 / metres_per_unit};
+      options.focus = drawing::Focus{plane.origin, 0.03 / metres_per_unit};
       album.add(options, fmt::format("{} across the vessel at {}", array, name));
     }
 }
 
 }  // namespace
 
-std::string pictures_part(const Results& r, const Say& say) {
+std::string pictures_part(const Results& r, const files::Say& say) {
   std::string text = "<h2 id=\"pictures\">Pictures</h2>\n";
   if (!r.report.settings.pictures) return text + missing("Pictures", "not wanted (`pictures: false`)");
   const Scene scene = scene_of(r);
@@ -186,7 +186,7 @@ std::string pictures_part(const Results& r, const Say& say) {
     draw_cuts(scene, r.report.metres_per_unit, album);
     for (const char* array : {"TAWSS", "OSI"}) {
       if (scene.shear.empty()) break;
-      PictureOptions options;
+      drawing::PictureOptions options;
       options.inputs = {scene.shear};
       options.array = array;
       options.percentile = shown;

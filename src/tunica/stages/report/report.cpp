@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "tunica/base/error.hpp"
-#include "tunica/mesh/series_file.hpp"
-#include "tunica/stages/page.hpp"
+#include "tunica/drawing/page.hpp"
+#include "tunica/files/series_file.hpp"
 #include "tunica/stages/report/parts.hpp"
 
 namespace tunica::stages {
@@ -25,8 +25,9 @@ Schema<fs::path> folder_schema() {
 }
 
 std::string case_part(const ReportCase& report) {
-  return "<h2 id=\"case\">Case file</h2>\n<details><summary>" + page::escaped(report.case_file.filename().string()) +
-         "</summary><pre>" + page::escaped(config::read_text(report.case_file)) + "</pre></details>\n";
+  return "<h2 id=\"case\">Case file</h2>\n<details><summary>" +
+         drawing::page::escaped(report.case_file.filename().string()) + "</summary><pre>" +
+         drawing::page::escaped(config::read_text(report.case_file)) + "</pre></details>\n";
 }
 
 constexpr const char* contents =
@@ -43,7 +44,7 @@ Schema<ReportCase> ReportCase::schema() {
       .file("case", &ReportCase::case_file, "The case file, which stands at the end of the page")
       .map("stages", &ReportCase::stages, folder_schema(),
            "Folders of the stages mesh, fibres, prestress, outlets, run, post; those that are left out are missing")
-      .include(&ReportCase::settings, ReportSettings::schema())
+      .include(&ReportCase::settings, case_file::ReportSettings::schema())
       .unit("length_unit", &ReportCase::metres_per_unit, config::dimension::length,
             "Unit of the coordinates in the fields of the run")
       .by_default()
@@ -55,22 +56,24 @@ config::Parsed<ReportCase> read_report_case(const fs::path& file) {
   return config::parse_file(ReportCase::schema(), file);
 }
 
-fs::path report_to_file(const ReportCase& report, const ProgramVersion& program, bool overwrite, const Say& say) {
+fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersion& program, bool overwrite,
+                        const files::Say& say) {
   const fs::path file = report.output / "report.html";
   if (!overwrite && fs::exists(file))
     throw InputError(file.string(), "is there already", "give --overwrite, or another `output`");
-  const auto results = report::read_results(report);
-  const std::string text = page::begin(report.title.empty() ? "Report" : report.title) + contents +
-                           report::summary_part(results, program) + report::mesh_part(results) +
-                           report::fibres_part(results) + report::prestress_part(results) +
-                           report::outlets_part(results) + report::run_part(results) + report::cycle_part(results) +
-                           report::pictures_part(results, say) + case_part(report) + page::end();
+  const auto results = stages::report::read_results(report);
+  const std::string text = drawing::page::begin(report.title.empty() ? "Report" : report.title) + contents +
+                           stages::report::summary_part(results, program) + stages::report::mesh_part(results) +
+                           stages::report::fibres_part(results) + stages::report::prestress_part(results) +
+                           stages::report::outlets_part(results) + stages::report::run_part(results) +
+                           stages::report::cycle_part(results) + stages::report::pictures_part(results, say) +
+                           case_part(report) + drawing::page::end();
   std::error_code error;
   fs::create_directories(report.output, error);
   if (error)
     throw InputError(report.output.string(), fmt::format("cannot be made ({})", error.message()),
                      "name a folder that can be created and written");
-  mesh::write_atomically(file, text);
+  files::write_atomically(file, text);
   return file;
 }
 
@@ -118,7 +121,7 @@ Results read_results(const ReportCase& report) {
 }
 
 std::string figure(const json& value, int digits) {
-  if (value.is_string()) return page::escaped(value.get<std::string>());
+  if (value.is_string()) return drawing::page::escaped(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_integer()) return value.dump();
   if (!value.is_number() || !std::isfinite(value.get<double>())) return "–";
@@ -126,7 +129,7 @@ std::string figure(const json& value, int digits) {
 }
 
 std::string missing(const std::string& what, const std::string& why) {
-  return fmt::format("<p class=\"missing\">{}: {}.</p>\n", page::escaped(what), page::escaped(why));
+  return fmt::format("<p class=\"missing\">{}: {}.</p>\n", drawing::page::escaped(what), drawing::page::escaped(why));
 }
 
 std::string drawings(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& captions_by_file) {
@@ -135,7 +138,7 @@ std::string drawings(const fs::path& folder, const std::vector<std::pair<std::st
     std::ifstream stream(folder / file, std::ios::binary);
     if (!stream) continue;
     const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
-    text += page::picture(page::data_url(bytes, "svg+xml"), caption);
+    text += drawing::page::picture(drawing::page::data_url(bytes, "svg+xml"), caption);
   }
   return text;
 }

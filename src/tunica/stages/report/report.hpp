@@ -5,10 +5,10 @@
 #include <map>
 #include <string>
 
+#include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/report_settings.hpp"
 #include "tunica/config/schema.hpp"
-#include "tunica/stages/manifest.hpp"
-#include "tunica/stages/phases.hpp"
-#include "tunica/stages/report/settings.hpp"
+#include "tunica/files/phases.hpp"
 
 namespace tunica::stages {
 
@@ -17,7 +17,7 @@ struct ReportCase {
   std::string title;
   std::filesystem::path case_file;                      ///< printed at the end of the page
   std::map<std::string, std::filesystem::path> stages;  ///< folder by the name of the stage
-  ReportSettings settings;
+  case_file::ReportSettings settings;
   double metres_per_unit = 1e-3;  ///< of the coordinates in the fields of the run
   std::filesystem::path output;
 
@@ -33,7 +33,7 @@ config::Parsed<ReportCase> read_report_case(const std::filesystem::path& file);
 ///
 /// Throws InputError when it is there and `overwrite` is false, or a file of a stage does not read; SolverError when
 /// the page cannot be written. Not collective.
-std::filesystem::path report_to_file(const ReportCase& report, const ProgramVersion& program, bool overwrite,
-                                     const Say& say);
+std::filesystem::path report_to_file(const ReportCase& report, const artifacts::ProgramVersion& program, bool overwrite,
+                                     const files::Say& say);
 
 }  // namespace tunica::stages

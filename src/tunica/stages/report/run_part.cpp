@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "tunica/stages/csv_file.hpp"
-#include "tunica/stages/page.hpp"
-#include "tunica/stages/plot.hpp"
+#include "tunica/drawing/page.hpp"
+#include "tunica/drawing/plot.hpp"
+#include "tunica/files/csv_file.hpp"
 #include "tunica/stages/report/parts.hpp"
 
 namespace tunica::stages::report {
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* remedy = "do the stage `run` anew";
 
-std::size_t column_with(const CsvColumns& table, const std::string& text) {
+std::size_t column_with(const files::CsvColumns& table, const std::string& text) {
   const auto at = std::find_if(table.headers.begin(), table.headers.end(),
                                [&](const auto& header) { return header.find(text) != std::string::npos; });
   return static_cast<std::size_t>(at - table.headers.begin());
@@ -29,8 +29,8 @@ std::string unit_of(const std::string& header) {
 }
 
 /// All columns whose header ends in " <what> [unit]".
-std::string curves(const CsvColumns& table, const std::string& what, const std::string& title) {
-  std::vector<Series> series;
+std::string curves(const files::CsvColumns& table, const std::string& what, const std::string& title) {
+  std::vector<drawing::Series> series;
   std::string unit;
   const std::size_t time = column_with(table, "time");
   if (time == table.headers.size()) return "";
@@ -41,20 +41,20 @@ std::string curves(const CsvColumns& table, const std::string& what, const std::
     series.push_back({.name = table.headers[k].substr(0, at), .x = table.columns[time], .y = table.columns[k]});
   }
   if (series.empty() || table.columns[time].size() < 2) return "";
-  return page::drawing(
-      draw_plot(series, {.title = title, .x_label = table.headers[time], .y_label = what + " " + unit, .width = 560}));
+  return drawing::page::drawing(drawing::draw_plot(
+      series, {.title = title, .x_label = table.headers[time], .y_label = what + " " + unit, .width = 560}));
 }
 
-std::string curve(const CsvColumns& table, const std::string& column, const std::string& title) {
+std::string curve(const files::CsvColumns& table, const std::string& column, const std::string& title) {
   const std::size_t k = column_with(table, column), time = column_with(table, "time");
   if (k == table.headers.size() || time == table.headers.size() || table.columns[time].size() < 2) return "";
-  return page::drawing(
-      draw_plot({{.name = "", .x = table.columns[time], .y = table.columns[k]}},
-                {.title = title, .x_label = table.headers[time], .y_label = table.headers[k], .width = 560}));
+  return drawing::page::drawing(
+      drawing::draw_plot({{.name = "", .x = table.columns[time], .y = table.columns[k]}},
+                         {.title = title, .x_label = table.headers[time], .y_label = table.headers[k], .width = 560}));
 }
 
 std::string balance(const fs::path& folder) {
-  const CsvColumns table = read_csv(folder / "balance.csv", remedy);
+  const files::CsvColumns table = files::read_csv(folder / "balance.csv", remedy);
   std::vector<std::vector<std::string>> rows;
   const auto largest = [&](const std::string& column, const std::string& name) {
     const auto k = column_with(table, column);
@@ -67,11 +67,11 @@ std::string balance(const fs::path& folder) {
   largest("max velocity", "largest velocity");
   largest("relative mass residual", "largest mass residual, of the largest flow");
   largest("interface power residual", "largest residual of the power at the interface");
-  return page::table({"of all steps", ""}, rows) + curve(table, "max displacement", "Largest displacement");
+  return drawing::page::table({"of all steps", ""}, rows) + curve(table, "max displacement", "Largest displacement");
 }
 
 std::string times(const fs::path& folder) {
-  const CsvColumns table = read_csv(folder / "steps.csv", remedy);
+  const files::CsvColumns table = files::read_csv(folder / "steps.csv", remedy);
   std::vector<std::vector<std::string>> rows;
   for (const char* what : {"newton iterations", "linear iterations", "mesh iterations", "assembly", "set-up",
                            "linear [", "mesh [", "total"}) {
@@ -79,11 +79,11 @@ std::string times(const fs::path& folder) {
     if (k == table.headers.size() || table.columns[k].empty()) continue;
     const auto& values = table.columns[k];
     rows.push_back(
-        {page::escaped(table.headers[k]),
+        {drawing::page::escaped(table.headers[k]),
          fmt::format("{:.3g}", std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size())),
          fmt::format("{:.3g}", *std::max_element(values.begin(), values.end()))});
   }
-  return page::table({"of a step", "mean", "largest"}, rows) + curve(table, "total", "Seconds of each step") +
+  return drawing::page::table({"of a step", "mean", "largest"}, rows) + curve(table, "total", "Seconds of each step") +
          curve(table, "newton iterations", "Newton iterations of each step");
 }
 
@@ -94,7 +94,7 @@ std::string runs(const json& manifest) {
                     figure(run.value("rejected_steps", json())), figure(run.value("ranks", json())),
                     figure(run.contains("seconds") ? run["seconds"].value("total", json()) : json()),
                     figure(run.value("peak_memory [MB]", json()), 3)});
-  return page::table({"run", "to step", "steps rejected", "ranks", "seconds", "memory [MB]"}, rows);
+  return drawing::page::table({"run", "to step", "steps rejected", "ranks", "seconds", "memory [MB]"}, rows);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ std::string run_part(const Results& r) {
   text += runs(r.manifest) + balance(folder);
   const bool has_faces = fs::exists(folder / "faces.csv");
   if (has_faces && r.post.is_null()) {
-    const CsvColumns faces = read_csv(folder / "faces.csv", remedy);
+    const files::CsvColumns faces = files::read_csv(folder / "faces.csv", remedy);
     text += curves(faces, "pressure", "Mean pressure at the openings") + curves(faces, "flow", "Flow at the openings");
   }
   return text + "<h3>Time steps</h3>\n" + times(folder);

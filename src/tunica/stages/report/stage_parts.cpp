@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "tunica/config/description.hpp"
-#include "tunica/stages/page.hpp"
-#include "tunica/stages/plot.hpp"
+#include "tunica/drawing/page.hpp"
+#include "tunica/drawing/plot.hpp"
 #include "tunica/stages/report/parts.hpp"
 
 namespace tunica::stages::report {
@@ -29,11 +29,11 @@ std::string stage_table(const Results& r) {
     rows.push_back(
         {stage, figure(at(record, "status")), fmt::format("{:.1f}", record.value("seconds", 0.0)),
          figure(at(record, "ranks")), figure(at(record, "time")),
-         page::escaped(record["program"].value("version", "") + " " + record["program"].value("commit", ""))});
+         drawing::page::escaped(record["program"].value("version", "") + " " + record["program"].value("commit", ""))});
   }
   if (rows.empty()) return missing("Stages", "none of the folders holds a stage.json");
   rows.push_back({"all", "", fmt::format("{:.1f}", total), "", "", ""});
-  return page::table({"stage", "status", "seconds", "ranks", "finished (UTC)", "program"}, rows);
+  return drawing::page::table({"stage", "status", "seconds", "ranks", "finished (UTC)", "program"}, rows);
 }
 
 /// What went into the run, key by key, in SI units.
@@ -43,30 +43,31 @@ std::string settings_table(const Results& r) {
   std::vector<std::vector<std::string>> rows;
   const json settings = at(run->second, "settings");
   for (const auto& [key, value] : settings.items())
-    rows.push_back({page::escaped(key), page::escaped(value.get<std::string>())});
-  return "<details><summary>All settings of the run, in SI units</summary>\n" + page::table({"key", "value"}, rows) +
-         "</details>\n";
+    rows.push_back({drawing::page::escaped(key), drawing::page::escaped(value.get<std::string>())});
+  return "<details><summary>All settings of the run, in SI units</summary>\n" +
+         drawing::page::table({"key", "value"}, rows) + "</details>\n";
 }
 
 std::string histogram(const json& counts, double bin, const std::string& title, const std::string& label) {
-  Series bars{"", {}, {}};
+  drawing::Series bars{"", {}, {}};
   double place = 0;
   for (const auto& n : counts) {
     for (const double x : {place, place + bin}) bars.x.push_back(x), bars.y.push_back(std::max(0.5, n.get<double>()));
     place += bin;
   }
-  return page::drawing(
-      draw_plot({bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
+  return drawing::page::drawing(drawing::draw_plot(
+      {bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
 }
 
 }  // namespace
 
-std::string summary_part(const Results& r, const ProgramVersion& program) {
-  std::string text = fmt::format("<p>tunica {} ({}).", page::escaped(program.version), page::escaped(program.commit));
+std::string summary_part(const Results& r, const artifacts::ProgramVersion& program) {
+  std::string text = fmt::format("<p>tunica {} ({}).", drawing::page::escaped(program.version),
+                                 drawing::page::escaped(program.commit));
   if (const json mesh = at(r.manifest, "mesh"); mesh.is_object()) {
     text += fmt::format(" {} nodes, {} elements", figure(at(mesh, "nodes")), figure(at(mesh, "elements")));
     for (const auto& region : at(mesh, "regions"))
-      text += fmt::format(", {} {}", page::escaped(region.value("name", "")), figure(at(region, "elements")));
+      text += fmt::format(", {} {}", drawing::page::escaped(region.value("name", "")), figure(at(region, "elements")));
     text += ".";
   }
   return text + "</p>\n<h2 id=\"stages\">Stages</h2>\n" + stage_table(r) + settings_table(r);
@@ -80,7 +81,7 @@ std::string mesh_part(const Results& r) {
   return text + "<details><summary>" +
          fmt::format("{} tetrahedra, smallest dihedral angle {}°; pictures, shapes, regions, tears",
                      figure(at(r.mesh, "tetrahedra")), figure(r.mesh["shapes"]["smallest_dihedral_deg"], 3)) +
-         "</summary>\n" + page::body(config::read_text(page)) + "</details>\n";
+         "</summary>\n" + drawing::page::body(config::read_text(page)) + "</details>\n";
 }
 
 std::string fibres_part(const Results& r) {
@@ -88,13 +89,14 @@ std::string fibres_part(const Results& r) {
   if (r.fibres.is_null()) return text + missing("Directions", "the case has no stage `fibres`, or it is not done");
   std::vector<std::vector<std::string>> rows;
   const auto line = [&](const json& region, const std::string& name) {
-    rows.push_back({page::escaped(name), figure(at(region, "elements")),
+    rows.push_back({drawing::page::escaped(name), figure(at(region, "elements")),
                     figure(at(region, "jump_above_30_deg_percent"), 3), figure(at(region, "mean_confidence"), 3)});
   };
   for (const auto& region : at(r.fibres, "regions")) line(region, region.value("name", ""));
   line(at(r.fibres, "wall"), "all");
   return text +
-         page::table({"region", "elements", "jump to a neighbour above 30° [%]", "mean confidence, 0 to 1"}, rows) +
+         drawing::page::table({"region", "elements", "jump to a neighbour above 30° [%]", "mean confidence, 0 to 1"},
+                              rows) +
          histogram(r.fibres["wall"]["confidence_histogram_0.1"], 0.1, "Confidence of the directions", "confidence");
 }
 
@@ -114,7 +116,7 @@ std::string prestress_part(const Results& r) {
                     figure(100 * flow.value("change of pressure in the last step", std::nan("")), 3)});
   }
   if (r.prestress.contains("failure")) rows.push_back({"failure", figure(at(r.prestress, "failure"))});
-  return text + page::table({"", ""}, rows) +
+  return text + drawing::page::table({"", ""}, rows) +
          drawings(r.folder("prestress"), {{"fixed_point.svg", "Displacement of the imaged wall under its load"}});
 }
 
@@ -134,13 +136,13 @@ std::string outlets_part(const Results& r) {
       cells.push_back(fmt::format("{:.1f}", at(cycle, "measured").value(key, std::nan("")) / mmHg));
     rows.push_back(cells);
   }
-  text += page::table(head, rows);
+  text += drawing::page::table(head, rows);
   rows.clear();
   const json fractions = at(r.tuning, "target fractions");
   for (const auto& [face, share] : fractions.items())
-    rows.push_back({page::escaped(face), figure(100 * share.get<double>(), 3),
+    rows.push_back({drawing::page::escaped(face), figure(100 * share.get<double>(), 3),
                     cycles.empty() ? "–" : figure(100 * cycles.back()["fractions"].value(face, std::nan("")), 3)});
-  return text + page::table({"outlet", "target [% of the outflow]", "last cycle [%]"}, rows) +
+  return text + drawing::page::table({"outlet", "target [% of the outflow]", "last cycle [%]"}, rows) +
          drawings(r.folder("outlets"), {{"tuning.svg", "Pressures cycle by cycle"},
                                         {"pressure.svg", "The last cycle in 3D and in the 0D model"}});
 }

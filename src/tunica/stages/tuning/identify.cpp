@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "tunica/config/units.hpp"
-#include "tunica/stages/csv_file.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::stages {
 
@@ -35,7 +35,7 @@ double compliance(const Measured& run) {
 }
 
 /// Least squares of drop = R Q + L dQ/dt with R, L >= 0.
-VesselPath path(const Measured& run, std::size_t outlet) {
+zerod::VesselPath path(const Measured& run, std::size_t outlet) {
   const auto& flow = run.outlet_flow[outlet];
   double qq = 0, qr = 0, rr = 0, dq = 0, dr = 0;
   for (std::size_t k = onset; k + 1 < run.times.size(); ++k) {
@@ -45,18 +45,19 @@ VesselPath path(const Measured& run, std::size_t outlet) {
   }
   const double det = qq * rr - qr * qr;
   if (det > 1e-12 * qq * rr) {
-    const VesselPath both{(dq * rr - dr * qr) / det, (dr * qq - dq * qr) / det};
+    const zerod::VesselPath both{(dq * rr - dr * qr) / det, (dr * qq - dq * qr) / det};
     if (both.resistance >= 0 && both.inertance >= 0) return both;
   }
   // One of them is at its bound: the other alone, whichever leaves less.
-  const VesselPath resistance{qq > 0 ? std::max(dq / qq, 0.0) : 0, 0},
+  const zerod::VesselPath resistance{qq > 0 ? std::max(dq / qq, 0.0) : 0, 0},
       inertance{0, rr > 0 ? std::max(dr / rr, 0.0) : 0};
   return resistance.resistance * dq >= inertance.inertance * dr ? resistance : inertance;
 }
 
 }  // namespace
 
-Measured read_measured(const std::filesystem::path& results, const Case& c, const std::string& inlet, double until) {
+Measured read_measured(const std::filesystem::path& results, const case_file::Case& c, const std::string& inlet,
+                       double until) {
   const auto& u = c.output.units;
   namespace dimension = config::dimension;
   const double time = config::unit_factor(u.time, dimension::time),
@@ -64,12 +65,13 @@ Measured read_measured(const std::filesystem::path& results, const Case& c, cons
                pressure = config::unit_factor(u.pressure, dimension::pressure),
                length = config::unit_factor(u.length, dimension::length);
   const char* remedy = "it is a history of a tuning run: find the outlets anew with --overwrite";
-  const CsvColumns faces = read_csv(results / "faces.csv", remedy), balance = read_csv(results / "balance.csv", remedy),
-                   of_steps = read_csv(results / "steps.csv", remedy);
+  const files::CsvColumns faces = files::read_csv(results / "faces.csv", remedy),
+                          balance = files::read_csv(results / "balance.csv", remedy),
+                          of_steps = files::read_csv(results / "steps.csv", remedy);
   const auto times = faces.column(fmt::format("time [{}]", u.time));
   const auto steps =
       static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](double t) { return t * time < until; }));
-  const auto take = [&](const CsvColumns& table, const std::string& name, double factor) {
+  const auto take = [&](const files::CsvColumns& table, const std::string& name, double factor) {
     std::vector<double> values = table.column(name);
     values.resize(steps);
     for (double& v : values) v *= factor;
@@ -91,15 +93,15 @@ Measured read_measured(const std::filesystem::path& results, const Case& c, cons
   return run;
 }
 
-Vessel identify(const Measured& run, bool rigid) {
+zerod::Vessel identify(const Measured& run, bool rigid) {
   assert(run.times.size() > onset + 2);
-  Vessel vessel{rigid ? 0.0 : compliance(run), {}};
+  zerod::Vessel vessel{rigid ? 0.0 : compliance(run), {}};
   for (std::size_t i = 0; i < run.outlet_flow.size(); ++i) vessel.paths.push_back(path(run, i));
   return vessel;
 }
 
-TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<double>& stored) {
-  TwinState start{run.times.front(), run.inlet_pressure.front(), {}, stored};
+zerod::TwinState start_of(const Measured& run, const zerod::Vessel& vessel, const std::vector<double>& stored) {
+  zerod::TwinState start{run.times.front(), run.inlet_pressure.front(), {}, stored};
   if (vessel.compliance > 0)
     start.pressure = average(run, run.inlet_pressure, onset) +
                      (run.lumen_volume.front() - average(run, run.lumen_volume, onset)) / vessel.compliance;
@@ -109,8 +111,8 @@ TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<
 
 double settled(const Measured& run) { return run.times[onset]; }
 
-Pressures first_pressures(const Measured& run) {
-  return first_pressures(run.times, run.inlet_pressure, average(run, run.inlet_pressure), settled(run));
+zerod::Pressures first_pressures(const Measured& run) {
+  return zerod::first_pressures(run.times, run.inlet_pressure, average(run, run.inlet_pressure), settled(run));
 }
 
 std::vector<double> mean_flows(const Measured& run) {

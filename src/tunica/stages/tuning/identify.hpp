@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tunica/stages/case.hpp"
-#include "tunica/stages/tuning/twin.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/zerod/twin.hpp"
 
 namespace tunica::stages {
 
@@ -20,20 +20,21 @@ struct Measured {
 
 /// Reads faces.csv, balance.csv and steps.csv of a run with the output units of `c`, up to time `until` [s]. Throws
 /// InputError when they do not read. Not collective.
-Measured read_measured(const std::filesystem::path& results, const Case& c, const std::string& inlet, double until);
+Measured read_measured(const std::filesystem::path& results, const case_file::Case& c, const std::string& inlet,
+                       double until);
 
 /// Compliance from volume against inlet pressure, resistance and inertance of each path from pressure drop against flow
 /// and its rate, both by least squares and not below zero, (7.4). At least five steps.
-Vessel identify(const Measured& run, bool rigid);
+zerod::Vessel identify(const Measured& run, bool rigid);
 
 /// State of the twin at the first step of a run whose outlets started from `stored` [Pa]. The pressure of a compliant
 /// vessel is the one that belongs to its volume: waves have not yet passed through it, and the inlet does not speak for
 /// the whole.
-TwinState start_of(const Measured& run, const Vessel& vessel, const std::vector<double>& stored);
+zerod::TwinState start_of(const Measured& run, const zerod::Vessel& vessel, const std::vector<double>& stored);
 
 /// Time after which a run answers to its vessel, not to its sudden start [s].
 double settled(const Measured& run);
-Pressures first_pressures(const Measured& run);
+zerod::Pressures first_pressures(const Measured& run);
 std::vector<double> mean_flows(const Measured& run);
 
 }  // namespace tunica::stages

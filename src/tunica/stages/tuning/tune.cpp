@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/artifacts/checkpoint.hpp"
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/log.hpp"
-#include "tunica/stages/checkpoint.hpp"
-#include "tunica/stages/load_mesh.hpp"
-#include "tunica/stages/run.hpp"
-#include "tunica/stages/tuning/outlets_file.hpp"
+#include "tunica/stages/run/run.hpp"
 #include "tunica/stages/tuning/tuning_report.hpp"
 
 namespace tunica::stages {
@@ -30,12 +30,12 @@ double rounded(double value) { return std::stod(fmt::format("{:.5e}", value)); }
 
 /// What a run in 3D is given.
 struct Plan {
-  Totals totals;
+  zerod::Totals totals;
   std::vector<double> stored;  ///< P_c at the start [Pa]
 };
 
 /// The one lumen face with a flow condition. Adds to `problems` what else stands in the way.
-std::string find_inlet(const Case& c, const mesh::MeshData& mesh, std::vector<Problem>& problems) {
+std::string find_inlet(const case_file::Case& c, const mesh::MeshData& mesh, std::vector<Problem>& problems) {
   std::vector<std::string> inlets;
   const auto& shares = c.outlets->fractions;
   for (const auto& [name, condition] : c.boundary) {
@@ -68,17 +68,17 @@ class Tuning {
   void prepare_folder();
   void remove_earlier();
 
-  const TuningCase& settings() const { return *case_.settings.outlets; }
-  bool rigid() const { return std::holds_alternative<RigidFlow>(case_.settings.analysis); }
+  const case_file::TuningCase& settings() const { return *case_.settings.outlets; }
+  bool rigid() const { return std::holds_alternative<case_file::RigidFlow>(case_.settings.analysis); }
   fs::path folder() const { return settings().output; }
   std::string mmHg(double pressure) const {
     return fmt::format("{:.4g}", pressure / config::unit_factor("mmHg", config::dimension::pressure));
   }
 
-  Plan make_plan(const Vessel& vessel, double systolic, double diastolic);
+  Plan make_plan(const zerod::Vessel& vessel, double systolic, double diastolic);
   /// Computes a case in 3D with the outlets of the plan, or takes what is there. False when a signal came.
   bool compute(const std::string& name, const Plan& plan, int steps);
-  TunedOutlets tuned_outlets(const Plan& plan) const;
+  artifacts::TunedOutlets tuned_outlets(const Plan& plan) const;
   ReadCase run_input(const std::string& name, const Plan& plan, int steps) const;
   /// How a run in 3D is to begin.
   struct Start {
@@ -121,18 +121,18 @@ Tuning::Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen)
 void Tuning::read() {
   parallel::on_root(comm_, [&] {
     case_.text = config::read_text(request_.case_file);
-    auto parsed = read_case(request_.case_file);
+    auto parsed = case_file::read_case(request_.case_file);
     case_.settings = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) case_.warnings.push_back(format(warning));
     if (!case_.settings.outlets)
       throw InputError(request_.case_file.string(), "has no section `outlets`",
                        "add `outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {<outlet>: 1}}`");
-    case_.mesh = load_mesh(case_.settings);
+    case_.mesh = artifacts::load_mesh(case_.settings);
     find_inflow();
   });
   parallel::broadcast(comm_, case_.text);
-  if (parallel::rank(comm_) != 0) case_.settings = parse_case(case_.text, request_.case_file);
-  name_faces(case_.settings, case_.mesh, comm_);
+  if (parallel::rank(comm_) != 0) case_.settings = case_file::parse_case(case_.text, request_.case_file);
+  artifacts::name_faces(case_.settings, case_.mesh, comm_);
   if (request_.directory) case_.settings.outlets->output = *request_.directory;
   parallel::broadcast(comm_, inlet_);
   parallel::broadcast(comm_, period_);
@@ -191,15 +191,17 @@ void Tuning::remove_earlier() {
   for (int k = 1; fs::exists(folder() / fmt::format("cycle_{}", k)); ++k)
     runs.push_back(folder() / fmt::format("cycle_{}", k));
   for (const auto& run : runs)
-    if (const auto results = find_results(run)) remove_results(run, *results);
+    if (const auto results = artifacts::find_results(run)) artifacts::remove_results(run, *results);
   for (const char* file : {"tuning.csv", "tuning.svg", "pressure.svg"}) fs::remove(folder() / file);
 }
 
-Plan Tuning::make_plan(const Vessel& vessel, double systolic, double diastolic) {
+Plan Tuning::make_plan(const zerod::Vessel& vessel, double systolic, double diastolic) {
   Plan plan = parallel::on_root(comm_, [&] {
-    Totals totals = find_totals(settings(), vessel, *inflow_, period_, systolic, diastolic);
+    zerod::Totals totals = zerod::find_totals(settings().flow_split(), vessel, *inflow_, period_, systolic, diastolic);
     totals = {rounded(totals.resistance), rounded(totals.compliance)};
-    auto stored = Twin(vessel, share_out(settings(), totals), *inflow_, period_).periodic_cycle().end.stored;
+    auto stored = zerod::Twin(vessel, zerod::share_out(settings().flow_split(), totals), *inflow_, period_)
+                      .periodic_cycle()
+                      .end.stored;
     std::transform(stored.begin(), stored.end(), stored.begin(), rounded);
     return Plan{totals, stored};
   });
@@ -208,9 +210,9 @@ Plan Tuning::make_plan(const Vessel& vessel, double systolic, double diastolic) 
   return plan;
 }
 
-TunedOutlets Tuning::tuned_outlets(const Plan& plan) const {
-  TunedOutlets tuned;
-  const auto shared = share_out(settings(), plan.totals);
+artifacts::TunedOutlets Tuning::tuned_outlets(const Plan& plan) const {
+  artifacts::TunedOutlets tuned;
+  const auto shared = zerod::share_out(settings().flow_split(), plan.totals);
   for (std::size_t i = 0; i < shared.size(); ++i) {
     tuned.emplace_back(settings().fractions[i].first, shared[i]);
     tuned.back().second.initial_pressure = plan.stored[i];
@@ -220,8 +222,8 @@ TunedOutlets Tuning::tuned_outlets(const Plan& plan) const {
 
 ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps) const {
   ReadCase run = case_;
-  Case& c = run.settings;
-  set_outlets(c, tuned_outlets(plan));
+  case_file::Case& c = run.settings;
+  artifacts::set_outlets(c, tuned_outlets(plan));
   for (auto& [face, condition] : c.boundary)
     if (auto* flow = std::get_if<bc::Flow>(&condition)) flow->course.ramp_time = 0;
   c.title = fmt::format("Tuning of the outlets: {}", name);
@@ -239,16 +241,16 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
 }
 
 Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& input) const {
-  const auto earlier = find_results(results);
+  const auto earlier = artifacts::find_results(results);
   if (!earlier) return {};
-  if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != mesh_hash(input.mesh.data)) {
+  if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != artifacts::mesh_hash(input.mesh.data)) {
     if (!request_.overwrite)
       throw InputError(results.string(), "holds a run with another mesh, inflow or prestress",
                        "replace it by --overwrite, or name another folder by --output");
     return {.done = false, .restart = false, .overwrite = true};
   }
   if (earlier->status == "completed") return {.done = true, .restart = false, .overwrite = false};
-  const bool restart = !list_checkpoints(results / "checkpoints").empty();
+  const bool restart = !artifacts::list_checkpoints(results / "checkpoints").empty();
   return {.done = false, .restart = restart, .overwrite = !restart};
 }
 
@@ -286,7 +288,7 @@ void Tuning::look_at_cycle(int number, const Plan& plan) {
     cycle.totals = plan.totals;
     cycle.run = read_measured(folder() / fmt::format("cycle_{}", number), case_.settings, inlet_, period_);
     cycle.vessel = identify(cycle.run, rigid());
-    const Twin twin(cycle.vessel, share_out(settings(), plan.totals), *inflow_, period_);
+    const zerod::Twin twin(cycle.vessel, zerod::share_out(settings().flow_split(), plan.totals), *inflow_, period_);
     cycle.first = twin.first_cycle(start_of(cycle.run, cycle.vessel, plan.stored));
     cycle.periodic = twin.periodic_cycle();
     cycle.fractions = mean_flows(cycle.run);
@@ -301,14 +303,14 @@ void Tuning::look_at_cycle(int number, const Plan& plan) {
 }
 
 void Tuning::tell(int number, const TuningCycle& cycle) {
-  const auto line = [&](const char* what, const Pressures& p) {
+  const auto line = [&](const char* what, const zerod::Pressures& p) {
     log_->info(fmt::format("  {:<24} {}/{} mmHg, mean {}", what, mmHg(p.systolic), mmHg(p.diastolic), mmHg(p.mean)));
   };
   log_->info(fmt::format("cycle {} of at most {}:", number, settings().max_cycles));
   line("asked", {settings().systolic, settings().diastolic, settings().mean()});
   line("measured in 3D", cycle.measured());
   line("0D from the same start", cycle.foreseen_first());
-  line("0D, periodic", pressures(cycle.periodic));
+  line("0D, periodic", zerod::pressures(cycle.periodic));
   line("foreseen when periodic", cycle.foreseen());
   for (std::size_t i = 0; i < cycle.fractions.size(); ++i)
     log_->info(fmt::format("  {}: {:.4g} of the outflow, asked {:.4g}", settings().fractions[i].first,
@@ -319,7 +321,7 @@ void Tuning::tell(int number, const TuningCycle& cycle) {
 void Tuning::write_result(const fs::path& file, const TuningCycle& cycle, const char* status) {
   report_.status = status;
   report_.seconds = MPI_Wtime() - started_;
-  write_outlets(file, settings(), tuned_outlets({cycle.totals, cycle.periodic.end.stored}));
+  artifacts::write_outlets(file, settings(), tuned_outlets({cycle.totals, cycle.periodic.end.stored}));
   write_report(report_, case_.settings);
 }
 
@@ -346,7 +348,7 @@ void Tuning::give_up() {
       return a.miss(settings()) < b.miss(settings());
     });
     write_result(folder() / "best.yaml", *best, "not converged");
-    const Pressures p = best->foreseen();
+    const zerod::Pressures p = best->foreseen();
     return fmt::format(
         "the outlets miss the targets after {} cycle{}: at best {}/{} mmHg (mean {}), asked are {}/{} mmHg; off by "
         "{:.3g} %, tolerance {:.3g} %\n  the best outlets are in {}; `tunica run` takes them from {}\n  try a larger "
@@ -361,7 +363,7 @@ void Tuning::give_up() {
 
 int Tuning::steps() {
   const double systolic = settings().systolic, diastolic = settings().diastolic;
-  const Vessel none{0.0, std::vector<VesselPath>(settings().fractions.size())};
+  const zerod::Vessel none{0.0, std::vector<zerod::VesselPath>(settings().fractions.size())};
   if (!compute("probe", make_plan(none, systolic, diastolic),
                std::max(static_cast<int>(probed_share * steps_per_cycle_), 7)))
     return signal_;
@@ -377,7 +379,7 @@ int Tuning::steps() {
     // (7.6): what 3D has more than the twin, the twin is asked for less.
     Next next = parallel::on_root(comm_, [&] {
       const TuningCycle& last = report_.cycles.back();
-      const Pressures m = last.measured(), f = last.foreseen_first();
+      const zerod::Pressures m = last.measured(), f = last.foreseen_first();
       return Next{last.miss(settings()) <= settings().tolerance, systolic - (m.systolic - f.systolic),
                   diastolic - (m.diastolic - f.diastolic)};
     });

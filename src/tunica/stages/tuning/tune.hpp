@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "tunica/stages/manifest.hpp"
+#include "tunica/artifacts/manifest.hpp"
 
 namespace tunica::stages {
 
@@ -15,7 +15,7 @@ struct TuneRequest {
   std::filesystem::path case_file;
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results of another case in the folder may be replaced
-  ProgramVersion program;
+  artifacts::ProgramVersion program;
 };
 
 /// Finds the outlets and writes into the folder of results:

@@ -9,8 +9,8 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
-#include "tunica/mesh/series_file.hpp"
-#include "tunica/stages/plot.hpp"
+#include "tunica/drawing/plot.hpp"
+#include "tunica/files/series_file.hpp"
 
 namespace tunica::stages {
 
@@ -21,11 +21,11 @@ namespace {
 
 constexpr const char* report_file = "tuning.json";
 
-ordered_json json_of(const Pressures& p) {
+ordered_json json_of(const zerod::Pressures& p) {
   return {{"systolic [Pa]", p.systolic}, {"diastolic [Pa]", p.diastolic}, {"mean [Pa]", p.mean}};
 }
 
-ordered_json json_of(const Vessel& vessel, const TuningCase& outlets) {
+ordered_json json_of(const zerod::Vessel& vessel, const case_file::TuningCase& outlets) {
   ordered_json json{{"compliance [m^3/Pa]", vessel.compliance}};
   for (std::size_t i = 0; i < vessel.paths.size(); ++i)
     json["paths"][outlets.fractions[i].first] = {{"resistance [Pa s/m^3]", vessel.paths[i].resistance},
@@ -33,12 +33,12 @@ ordered_json json_of(const Vessel& vessel, const TuningCase& outlets) {
   return json;
 }
 
-ordered_json json_of(const TuningCycle& cycle, const TuningCase& outlets) {
+ordered_json json_of(const TuningCycle& cycle, const case_file::TuningCase& outlets) {
   ordered_json json{{"total resistance [Pa s/m^3]", cycle.totals.resistance},
                     {"total compliance [m^3/Pa]", cycle.totals.compliance},
                     {"measured", json_of(cycle.measured())},
                     {"0D from the same start", json_of(cycle.foreseen_first())},
-                    {"0D periodic", json_of(pressures(cycle.periodic))},
+                    {"0D periodic", json_of(zerod::pressures(cycle.periodic))},
                     {"foreseen", json_of(cycle.foreseen())},
                     {"relative miss", cycle.miss(outlets)},
                     {"vessel", json_of(cycle.vessel, outlets)}};
@@ -47,9 +47,9 @@ ordered_json json_of(const TuningCycle& cycle, const TuningCase& outlets) {
   return json;
 }
 
-ordered_json outlets_json(const TuningCycle& cycle, const TuningCase& outlets) {
+ordered_json outlets_json(const TuningCycle& cycle, const case_file::TuningCase& outlets) {
   ordered_json json;
-  const auto shared = share_out(outlets, cycle.totals);
+  const auto shared = zerod::share_out(outlets.flow_split(), cycle.totals);
   for (std::size_t i = 0; i < shared.size(); ++i)
     json[outlets.fractions[i].first] = {{"proximal [Pa s/m^3]", shared[i].proximal},
                                         {"capacitance [m^3/Pa]", shared[i].capacitance},
@@ -58,12 +58,12 @@ ordered_json outlets_json(const TuningCycle& cycle, const TuningCase& outlets) {
   return json;
 }
 
-void write_json(const TuningReport& report, const TuningCase& outlets) {
+void write_json(const TuningReport& report, const case_file::TuningCase& outlets) {
   ordered_json json;
   json["program"] = {{"version", report.program.version}, {"commit", report.program.commit}};
   json["case_hash"] = report.case_hash;
   json["status"] = report.status;
-  json["targets"] = json_of(Pressures{outlets.systolic, outlets.diastolic, outlets.mean()});
+  json["targets"] = json_of(zerod::Pressures{outlets.systolic, outlets.diastolic, outlets.mean()});
   json["tolerance"] = outlets.tolerance;
   for (const auto& [face, share] : outlets.fractions) json["target fractions"][face] = share;
   if (report.probe) json["probe"] = json_of(*report.probe, outlets);
@@ -71,10 +71,10 @@ void write_json(const TuningReport& report, const TuningCase& outlets) {
   for (const auto& cycle : report.cycles) json["cycles"].push_back(json_of(cycle, outlets));
   if (!report.cycles.empty()) json["outlets of the last cycle"] = outlets_json(report.cycles.back(), outlets);
   json["seconds"] = report.seconds;
-  mesh::write_atomically(report.folder / report_file, json.dump(2) + "\n");
+  files::write_atomically(report.folder / report_file, json.dump(2) + "\n");
 }
 
-void write_table(const TuningReport& report, const Case& c, double pressure) {
+void write_table(const TuningReport& report, const case_file::Case& c, double pressure) {
   const auto& outlets = *c.outlets;
   const std::string unit = c.output.units.pressure;
   std::string text = "cycle,total resistance [Pa s/m^3],total compliance [m^3/Pa],vessel compliance [m^3/Pa]";
@@ -86,19 +86,19 @@ void write_table(const TuningReport& report, const Case& c, double pressure) {
   for (const auto& cycle : report.cycles) {
     text += fmt::format("{},{:.8g},{:.8g},{:.8g}", ++number, cycle.totals.resistance, cycle.totals.compliance,
                         cycle.vessel.compliance);
-    for (const auto& p : {cycle.measured(), cycle.foreseen_first(), pressures(cycle.periodic), cycle.foreseen()})
+    for (const auto& p : {cycle.measured(), cycle.foreseen_first(), zerod::pressures(cycle.periodic), cycle.foreseen()})
       text += fmt::format(",{:.6g},{:.6g},{:.6g}", p.systolic / pressure, p.diastolic / pressure, p.mean / pressure);
     for (const double share : cycle.fractions) text += fmt::format(",{:.6g}", share);
     text += fmt::format(",{:.6g}\n", cycle.miss(outlets));
   }
-  mesh::write_atomically(report.folder / "tuning.csv", text);
+  files::write_atomically(report.folder / "tuning.csv", text);
 }
 
-void plot_cycles(const TuningReport& report, const Case& c, double pressure) {
+void plot_cycles(const TuningReport& report, const case_file::Case& c, double pressure) {
   const auto& outlets = *c.outlets;
-  std::vector<Series> series;
-  const auto add = [&](const char* name, double Pressures::*value, double target, int colour) {
-    Series reached{.name = name, .x = {}, .y = {}, .markers = true, .colour = colour},
+  std::vector<drawing::Series> series;
+  const auto add = [&](const char* name, double zerod::Pressures::*value, double target, int colour) {
+    drawing::Series reached{.name = name, .x = {}, .y = {}, .markers = true, .colour = colour},
         asked{.name = "", .x = {}, .y = {}, .dashed = true, .colour = colour};
     for (std::size_t k = 0; k < report.cycles.size(); ++k) {
       reached.x.push_back(static_cast<double>(k + 1));
@@ -108,16 +108,16 @@ void plot_cycles(const TuningReport& report, const Case& c, double pressure) {
     asked.y = {target / pressure, target / pressure};
     series.push_back(reached), series.push_back(asked);
   };
-  add("systolic", &Pressures::systolic, outlets.systolic, 0);
-  add("mean", &Pressures::mean, outlets.mean(), 1);
-  add("diastolic", &Pressures::diastolic, outlets.diastolic, 2);
-  write_plot((report.folder / "tuning.svg").string(), series,
-             {.title = "Pressure at the inlet, and what was asked (dashed)",
-              .x_label = "cycle in 3D",
-              .y_label = fmt::format("pressure [{}]", c.output.units.pressure)});
+  add("systolic", &zerod::Pressures::systolic, outlets.systolic, 0);
+  add("mean", &zerod::Pressures::mean, outlets.mean(), 1);
+  add("diastolic", &zerod::Pressures::diastolic, outlets.diastolic, 2);
+  drawing::write_plot((report.folder / "tuning.svg").string(), series,
+                      {.title = "Pressure at the inlet, and what was asked (dashed)",
+                       .x_label = "cycle in 3D",
+                       .y_label = fmt::format("pressure [{}]", c.output.units.pressure)});
 }
 
-void plot_pressure(const TuningReport& report, const Case& c, double pressure) {
+void plot_pressure(const TuningReport& report, const case_file::Case& c, double pressure) {
   const TuningCycle& cycle = report.cycles.back();
   const double time = config::unit_factor(c.output.units.time, config::dimension::time);
   const auto scaled = [](std::vector<double> values, double unit) {
@@ -125,7 +125,7 @@ void plot_pressure(const TuningReport& report, const Case& c, double pressure) {
     return values;
   };
   const double end = cycle.first.times.back() / time;
-  std::vector<Series> series{
+  std::vector<drawing::Series> series{
       {.name = "3D", .x = scaled(cycle.run.times, time), .y = scaled(cycle.run.inlet_pressure, pressure)},
       {.name = "0D, same start",
        .x = scaled(cycle.first.times, time),
@@ -137,26 +137,26 @@ void plot_pressure(const TuningReport& report, const Case& c, double pressure) {
   for (const double target : {c.outlets->systolic, c.outlets->diastolic})
     series.push_back(
         {.name = "", .x = {0, end}, .y = {target / pressure, target / pressure}, .dashed = true, .colour = 6});
-  write_plot((report.folder / "pressure.svg").string(), series,
-             {.title = fmt::format("Pressure at the inlet in cycle {}", report.cycles.size()),
-              .x_label = fmt::format("time [{}]", c.output.units.time),
-              .y_label = fmt::format("pressure [{}]", c.output.units.pressure)});
+  drawing::write_plot((report.folder / "pressure.svg").string(), series,
+                      {.title = fmt::format("Pressure at the inlet in cycle {}", report.cycles.size()),
+                       .x_label = fmt::format("time [{}]", c.output.units.time),
+                       .y_label = fmt::format("pressure [{}]", c.output.units.pressure)});
 }
 
 }  // namespace
 
-Pressures TuningCycle::foreseen() const {
-  const Pressures m = measured(), f = foreseen_first(), p = pressures(periodic);
+zerod::Pressures TuningCycle::foreseen() const {
+  const zerod::Pressures m = measured(), f = foreseen_first(), p = zerod::pressures(periodic);
   return {m.systolic + p.systolic - f.systolic, m.diastolic + p.diastolic - f.diastolic, m.mean + p.mean - f.mean};
 }
 
-double TuningCycle::miss(const TuningCase& outlets) const {
-  const Pressures p = foreseen();
+double TuningCycle::miss(const case_file::TuningCase& outlets) const {
+  const zerod::Pressures p = foreseen();
   return std::max({std::abs(p.systolic / outlets.systolic - 1), std::abs(p.diastolic / outlets.diastolic - 1),
-                   std::abs(p.mean / pressures(periodic).mean - 1)});
+                   std::abs(p.mean / zerod::pressures(periodic).mean - 1)});
 }
 
-void write_report(const TuningReport& report, const Case& c) {
+void write_report(const TuningReport& report, const case_file::Case& c) {
   write_json(report, *c.outlets);
   if (report.cycles.empty()) return;
   const double pressure = config::unit_factor(c.output.units.pressure, config::dimension::pressure);

@@ -7,41 +7,41 @@
 #include <string>
 #include <vector>
 
-#include "tunica/stages/case.hpp"
-#include "tunica/stages/manifest.hpp"
+#include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/case.hpp"
 #include "tunica/stages/tuning/identify.hpp"
-#include "tunica/stages/tuning/twin.hpp"
+#include "tunica/zerod/twin.hpp"
 
 namespace tunica::stages {
 
 /// One cycle in 3D and what the twin of that cycle says.
 struct TuningCycle {
-  Totals totals;
+  zerod::Totals totals;
   Measured run;
-  Vessel vessel;
-  TwinCycle first, periodic;      ///< of the twin: from the same start, and when it repeats itself
-  std::vector<double> fractions;  ///< of the mean outflow, in 3D
+  zerod::Vessel vessel;
+  zerod::TwinCycle first, periodic;  ///< of the twin: from the same start, and when it repeats itself
+  std::vector<double> fractions;     ///< of the mean outflow, in 3D
 
-  Pressures measured() const { return first_pressures(run); }
-  Pressures foreseen_first() const { return first_pressures(first, settled(run)); }
+  zerod::Pressures measured() const { return first_pressures(run); }
+  zerod::Pressures foreseen_first() const { return zerod::first_pressures(first, settled(run)); }
   /// Of the periodic state in 3D: what was measured, and the way that the twin has still to go, (7.6).
-  Pressures foreseen() const;
+  zerod::Pressures foreseen() const;
   /// Largest difference from the targets, and of the mean from the twin's, relative.
-  double miss(const TuningCase& outlets) const;
+  double miss(const case_file::TuningCase& outlets) const;
 };
 
 struct TuningReport {
   std::filesystem::path folder;
-  ProgramVersion program;
+  artifacts::ProgramVersion program;
   std::uint64_t case_hash = 0;
-  std::string status = "running";  ///< or converged, not converged
-  std::optional<Vessel> probe;     ///< as the probe found it
+  std::string status = "running";      ///< or converged, not converged
+  std::optional<zerod::Vessel> probe;  ///< as the probe found it
   std::vector<TuningCycle> cycles;
   double seconds = 0;
 };
 
 /// Writes tuning.json, and with cycles tuning.csv, tuning.svg and pressure.svg. For one rank.
-void write_report(const TuningReport& report, const Case& c);
+void write_report(const TuningReport& report, const case_file::Case& c);
 
 /// Hash of the case in an earlier tuning.json; none when there is no such file. Throws InputError when it does not
 /// read.

@@ -1,8 +1,9 @@
 // Planted for the test of the include check; never compiled.
 #pragma once
 
-#include "tunica/wall/kinematics.hpp"
-#include "tunica/assembly/newton.hpp"
+#include <mpi.h>
 #include <petscvec.h>
-#  include <mpi.h>
+
+#include "tunica/assembly/newton.hpp"
+#include "tunica/wall/kinematics.hpp"
 #include "viscosity.hpp"

@@ -1,0 +1,260 @@
+#include "tunica/artifacts/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tunica/base/error.hpp"
+#include "tunica/files/hash.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/gather.hpp"
+
+namespace tunica::artifacts {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+// magic | version | length of the header | header (JSON) | fields | hash of header and fields. Little endian.
+constexpr char magic[8] = {'t', 'u', 'n', 'i', 'c', 'a', 'C', 'P'};
+constexpr std::uint64_t version = 1;
+constexpr std::uint64_t longest_header = 1 << 24;
+
+std::vector<std::vector<double> coupling::State::*> nodal_fields() {
+  using coupling::State;
+  return {&State::velocity_pressure, &State::acceleration, &State::displacement, &State::displacement_rate};
+}
+
+parallel::NodeOrder node_order(const distributed::DistributedMesh& mesh) {
+  return {mesh.comm, std::span(mesh.original_ids).first(static_cast<std::size_t>(mesh.owned_nodes)), mesh.global_nodes};
+}
+
+json header_of(const Checkpoint& c, std::int64_t nodes) {
+  json outlets = json::array();
+  for (const auto& outlet : c.state.outlets)
+    outlets.push_back({{"face", outlet.face()}, {"state", outlet.state()}, {"pressure", outlet.pressure()}});
+  const auto& p = c.position;
+  return {{"nodes", nodes},
+          {"case_hash", c.case_hash},
+          {"mesh_hash", c.mesh_hash},
+          {"step", c.state.step},
+          {"time", c.state.time},
+          {"dt", c.state.dt},
+          {"residual_reference", c.state.residual_reference},
+          {"velocity_reference", c.state.velocity_reference},
+          {"outlets", outlets},
+          {"grid",
+           {{"base_time", p.base_time},
+            {"base_step", p.base_step},
+            {"nominal", p.nominal},
+            {"done", p.done},
+            {"part", p.part},
+            {"level", p.level}}}};
+}
+
+void restore_outlets(const json& saved, std::vector<bc::Outlet>& outlets, const std::string& where) {
+  if (saved.size() != outlets.size())
+    throw InputError(where, fmt::format("has {} outlets, the case has {}", saved.size(), outlets.size()),
+                     "restart with the case that wrote the checkpoint");
+  for (std::size_t k = 0; k < outlets.size(); ++k) {
+    if (saved[k].at("face") != outlets[k].face())
+      throw InputError(where,
+                       fmt::format("outlet {} is {}, in the case it is {}", k + 1,
+                                   saved[k].at("face").get<std::string>(), outlets[k].face()),
+                       "restart with the case that wrote the checkpoint");
+    outlets[k].restore(saved[k].at("state").get<std::vector<double>>());
+  }
+}
+
+void take_header(const json& h, Checkpoint& c, const std::string& where) {
+  c.case_hash = h.at("case_hash");
+  c.mesh_hash = h.at("mesh_hash");
+  c.state.step = h.at("step");
+  c.state.time = h.at("time");
+  c.state.dt = h.at("dt");
+  c.state.residual_reference = h.at("residual_reference");
+  c.state.velocity_reference = h.value("velocity_reference", 0.0);  // older ones had no adaptive steps
+  const json& g = h.at("grid");
+  c.position = {g.at("base_time"), g.at("base_step"), g.at("nominal"), g.at("done"), g.at("part"), g.at("level")};
+  restore_outlets(h.at("outlets"), c.state.outlets, where);
+}
+
+[[noreturn]] void damaged(const fs::path& file, const std::string& what) {
+  throw InputError(file.string(), what, "restart from another checkpoint: --restart FILE");
+}
+
+/// Reading end of a checkpoint, on rank 0.
+class Reader {
+ public:
+  explicit Reader(const fs::path& file) : file_(file), stream_(file, std::ios::binary) {
+    if (!stream_) damaged(file, fmt::format("cannot be opened ({})", std::strerror(errno)));
+  }
+  void read(void* to, std::size_t bytes) {
+    stream_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
+    if (!stream_) damaged(file_, "the checkpoint is not complete");
+    hash_.add(to, bytes);
+  }
+  std::string header() {
+    char found[8];
+    std::uint64_t v = 0, length = 0;
+    read(found, sizeof found);
+    if (std::memcmp(found, magic, sizeof magic) != 0) damaged(file_, "is no tunica checkpoint");
+    read(&v, sizeof v);
+    if (v != version) damaged(file_, fmt::format("has format version {}, this tunica reads version {}", v, version));
+    read(&length, sizeof length);
+    if (length > longest_header) damaged(file_, "the checkpoint is damaged");
+    std::string text(length, '\0');
+    read(text.data(), length);
+    return text;
+  }
+  void finish() {
+    const std::uint64_t expected = hash_.value();
+    std::uint64_t found = 0;
+    read(&found, sizeof found);
+    if (found != expected) damaged(file_, "the checkpoint is damaged: its contents do not have the recorded hash");
+  }
+
+ private:
+  fs::path file_;
+  std::ifstream stream_;
+  files::Hash hash_;
+};
+
+class Writer {
+ public:
+  explicit Writer(const fs::path& file) : file_(file), stream_(file, std::ios::binary | std::ios::trunc) { check(); }
+  void write(const void* data, std::size_t bytes) {
+    stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+    check();
+    hash_.add(data, bytes);
+  }
+  void header(const std::string& text) {
+    const std::uint64_t length = text.size();
+    write(magic, sizeof magic);
+    write(&version, sizeof version);
+    write(&length, sizeof length);
+    write(text.data(), text.size());
+  }
+  void finish() {
+    const std::uint64_t hash = hash_.value();
+    write(&hash, sizeof hash);
+    stream_.close();
+    check();
+  }
+
+ private:
+  void check() const {
+    if (!stream_)
+      throw SolverError(fmt::format("cannot write the checkpoint {} ({})", file_.string(), std::strerror(errno)));
+  }
+  fs::path file_;
+  std::ofstream stream_;
+  files::Hash hash_;
+};
+
+}  // namespace
+
+void write_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const Checkpoint& checkpoint) {
+  const fs::path partial = file.string() + ".partial";
+  std::optional<Writer> writer;
+  parallel::on_root(mesh.comm, [&] {
+    std::error_code exists_or_fails_below;
+    fs::create_directories(file.parent_path(), exists_or_fails_below);
+    writer.emplace(partial);
+    writer->header(header_of(checkpoint, mesh.global_nodes).dump());
+  });
+  for (const auto field : nodal_fields()) {
+    const auto values = parallel::gather_by_original_id(node_order(mesh), checkpoint.state.*field, 4);
+    parallel::on_root(mesh.comm, [&] { writer->write(values.data(), values.size() * sizeof(double)); });
+  }
+  parallel::on_root(mesh.comm, [&] {
+    writer->finish();
+    std::error_code error;
+    fs::rename(partial, file, error);
+    if (error) throw SolverError(fmt::format("cannot write the checkpoint {} ({})", file.string(), error.message()));
+  });
+}
+
+namespace {
+
+/// Reads header and nodal fields. `take(header)` is called on all ranks.
+template <class Take>
+void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::uint64_t mesh_hash,
+          coupling::State& state, const Take& take) {
+  std::optional<Reader> reader;
+  std::string header = parallel::on_root(mesh.comm, [&] {
+    reader.emplace(file);
+    std::string text = reader->header();
+    const json h = json::parse(text, nullptr, false);
+    if (h.is_discarded() || !h.contains("mesh_hash") || !h.contains("nodes")) damaged(file, "the header is damaged");
+    if (h["mesh_hash"] != mesh_hash || h["nodes"] != mesh.global_nodes)
+      throw InputError(file.string(), "the checkpoint belongs to another mesh than the case",
+                       "restart with the case and the mesh files that wrote it");
+    return text;
+  });
+  parallel::broadcast(mesh.comm, header);
+  parallel::agree(mesh.comm, [&] {
+    try {
+      take(json::parse(header));
+    } catch (const json::exception& error) {
+      damaged(file, fmt::format("the header is damaged: {}", error.what()));
+    }
+  });
+  const bool root = parallel::rank(mesh.comm) == 0;
+  std::vector<double> field(root ? 4 * static_cast<std::size_t>(mesh.global_nodes) : 0);
+  for (const auto member : nodal_fields()) {
+    parallel::on_root(mesh.comm, [&] { reader->read(field.data(), field.size() * sizeof(double)); });
+    auto& values = state.*member;
+    parallel::scatter_by_original_id(node_order(mesh), field, values, 4);
+    mesh.halo.update(values, 4);
+  }
+  parallel::on_root(mesh.comm, [&] { reader->finish(); });
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const coupling::State& start,
+                           std::uint64_t mesh_hash) {
+  Checkpoint c{.state = start, .position = {}};
+  read(file, mesh, mesh_hash, c.state, [&](const json& header) { take_header(header, c, file.string()); });
+  return c;
+}
+
+std::vector<OutletStart> read_start(const fs::path& file, const distributed::DistributedMesh& mesh,
+                                    coupling::State& state, std::uint64_t mesh_hash) {
+  std::vector<OutletStart> outlets;
+  read(file, mesh, mesh_hash, state, [&](const json& header) {
+    for (const auto& outlet : header.at("outlets"))
+      outlets.push_back({outlet.at("face"), outlet.at("state").at(0), outlet.at("pressure")});
+  });
+  return outlets;
+}
+
+fs::path checkpoint_file(const fs::path& folder, std::int64_t step) {
+  return folder / fmt::format("step_{:08}.checkpoint", step);
+}
+
+std::int64_t step_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  std::int64_t step = -1;
+  if (file.extension() != ".checkpoint" || !name.starts_with("step_")) return -1;
+  const auto [end, error] = std::from_chars(name.data() + 5, name.data() + name.size(), step);
+  return error == std::errc{} && std::string_view(end) == ".checkpoint" ? step : -1;
+}
+
+std::vector<fs::path> list_checkpoints(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (step_of(entry.path()) >= 0) files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return step_of(a) < step_of(b); });
+  return files;
+}
+
+}  // namespace tunica::artifacts

@@ -1,0 +1,185 @@
+#include "tunica/artifacts/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tunica/config/units.hpp"
+#include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/wall_element.hpp"
+#include "tunica/fluid/boundary.hpp"
+#include "tunica/wall/output.hpp"
+
+namespace tunica::artifacts {
+
+namespace dimension = config::dimension;
+using coupling::at;
+using coupling::State;
+using coupling::vector_at;
+using mesh::RegionKind;
+
+namespace {
+
+std::array<std::int32_t, 3> sorted(std::array<std::int32_t, 3> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+const wall::LawParameters& material_of(const wall::Parameters& wall, const std::string& region) {
+  const auto own = wall.regions.find(region);
+  return own == wall.regions.end() ? wall.material : own->second.material;
+}
+
+}  // namespace
+
+OutputFields::OutputFields(const coupling::Problem& problem, const case_file::Case& c)
+    : problem_(problem), units_(c.output.units), dynamic_(!std::holds_alternative<case_file::StaticWall>(c.analysis)) {
+  if (c.solves_fluid()) find_wall_triangles(c);
+  const auto& regions = problem.mesh().regions;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (regions[r].kind != RegionKind::wall) continue;
+    const auto n = static_cast<std::size_t>(regions[r].owned_elements);
+    auto& stress = stress_.emplace_back(
+        RegionStress{static_cast<std::int32_t>(r), std::vector<double>(n), std::vector<double>(n)});
+    stress.fibres = wall::mean_fibre_directions(material_of(*problem.input().wall, regions[r].name));
+    stress.fibre.assign(stress.fibres.size(), std::vector<double>(n));
+  }
+}
+
+// The vessel's inside: interface faces and faces at which the flow sticks.
+void OutputFields::find_wall_triangles(const case_file::Case& c) {
+  const auto& mesh = problem_.mesh();
+  std::set<std::string> inside;
+  for (const auto& [lumen, wall] : problem_.input().boundary.interfaces) inside.insert(lumen);
+  for (const auto& [face, condition] : c.boundary)
+    if (std::holds_alternative<bc::NoSlip>(condition)) inside.insert(face);
+  std::map<std::array<std::int32_t, 3>, std::size_t> wanted;
+  for (const auto& face : mesh.faces) {
+    if (!inside.contains(face.name)) continue;
+    for (const auto& triangle : face.triangles) {
+      wanted[sorted(triangle)] = wall_triangles_.size();
+      wall_triangles_.push_back({triangle, {}});
+    }
+  }
+  for (const auto& region : mesh.regions) {
+    if (region.kind != RegionKind::lumen) continue;
+    for (const auto& n : region.elements)
+      for (const auto& side : {sorted({n[1], n[2], n[3]}), sorted({n[0], n[2], n[3]}), sorted({n[0], n[1], n[3]}),
+                               sorted({n[0], n[1], n[2]})})
+        if (const auto it = wanted.find(side); it != wanted.end()) wall_triangles_[it->second].element = n;
+  }
+}
+
+// At a node the mean over its wall triangles, weighted with their areas. Every triangle at an owned node is present.
+void OutputFields::compute_shear_stress(const State& state) {
+  const auto& mesh = problem_.mesh();
+  shear_.assign(3 * static_cast<std::size_t>(mesh.nodes()), 0.0);
+  std::vector<double> weight(static_cast<std::size_t>(mesh.nodes()), 0.0);
+  const auto position = [&](std::int32_t node) {
+    return mesh.points[node] + vector_at(state.displacement.data(), node);
+  };
+  for (const auto& triangle : wall_triangles_) {
+    Vec3<double> x[4], corners[3];
+    for (int a = 0; a < 4; ++a) x[a] = position(triangle.element[a]);
+    for (int a = 0; a < 3; ++a) corners[a] = position(triangle.nodes[a]);
+    const auto shape = fe::gradients(x);
+    Mat3<double> gradient{};
+    for (int a = 0; a < 4; ++a)
+      fluid::detail::add_outer(gradient, vector_at(state.velocity_pressure.data(), triangle.element[a]), shape.dN[a]);
+    const double mu = std::visit([&](const auto& law) { return law.viscosity(fluid::shear_rate(gradient)); },
+                                 problem_.input().fluid->viscosity);
+    const Vec3<double> n = fluid::area_vector(corners);
+    const double area = norm(n);
+    // What the flow does to the wall: the opposite of what the wall does to the flow.
+    const Vec3<double> stress = (-1.0) * fluid::wall_shear_traction(gradient, mu, (1.0 / area) * n);
+    for (const auto node : triangle.nodes) {
+      weight[node] += area;
+      for (int i = 0; i < 3; ++i) shear_[3 * static_cast<std::size_t>(node) + i] += area * stress[i];
+    }
+  }
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node)
+    for (int i = 0; i < 3 && weight[node] > 0; ++i) shear_[3 * static_cast<std::size_t>(node) + i] /= weight[node];
+  mesh.halo.update(shear_, 3);
+}
+
+void OutputFields::compute_wall_stress(const State& state) {
+  const auto& mesh = problem_.mesh();
+  const coupling::WallModel& model = problem_.wall_model();
+  for (auto& stress : stress_) {
+    const auto region = static_cast<std::size_t>(stress.region);
+    for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
+      const auto index = static_cast<std::int32_t>(e);
+      const auto element = coupling::wall_element(mesh, model, state, region, index);
+      const auto sigma = coupling::cauchy_stress(model, region, index, element);
+      stress.von_mises[e] = wall::von_mises(sigma);
+      stress.principal[e] = wall::principal_stresses(sigma)[0];
+      for (std::size_t f = 0; f < stress.fibres.size(); ++f)
+        stress.fibre[f][e] = wall::fibre_stress(element, sigma, stress.fibres[f]);
+    }
+  }
+}
+
+void OutputFields::write(distributed::ResultsWriter& writer, std::int64_t step, double time, const State& state) {
+  const auto& input = problem_.input();
+  const auto per_si = [](const std::string& unit, const config::Dimension& d) {
+    return 1 / config::unit_factor(unit, d);
+  };
+  const double stress_factor = per_si(units_.stress, dimension::pressure);
+  std::vector<distributed::NodalArray> nodal;
+  if (dynamic_)
+    nodal.push_back({.name = fmt::format("velocity [{}]", units_.velocity),
+                     .components = 3,
+                     .values = state.velocity_pressure,
+                     .stride = 4,
+                     .factor = per_si(units_.velocity, dimension::velocity)});
+  if (input.wall)
+    nodal.push_back({.name = fmt::format("displacement [{}]", units_.length),
+                     .components = 3,
+                     .values = state.displacement,
+                     .stride = 4,
+                     .factor = per_si(units_.length, dimension::length)});
+  const auto& regions = problem_.mesh().regions;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const bool lumen = regions[r].kind == RegionKind::lumen;
+    if (lumen || input.wall->element == wall::Element::mixed)
+      nodal.push_back({.name = fmt::format("pressure [{}]", units_.pressure),
+                       .components = 1,
+                       .values = std::span(state.velocity_pressure).subspan(state.velocity_pressure.empty() ? 0 : 3),
+                       .stride = 4,
+                       .factor = per_si(units_.pressure, dimension::pressure),
+                       .region = static_cast<std::int32_t>(r)});
+    if (!lumen) continue;
+    compute_shear_stress(state);
+    nodal.push_back({.name = fmt::format("wall shear stress [{}]", units_.stress),
+                     .components = 3,
+                     .values = shear_,
+                     .stride = 3,
+                     .factor = stress_factor,
+                     .region = static_cast<std::int32_t>(r)});
+  }
+  std::vector<distributed::CellArray> cells;
+  if (input.wall) compute_wall_stress(state);
+  for (const auto& s : stress_) {
+    cells.push_back({.name = fmt::format("von Mises stress [{}]", units_.stress),
+                     .region = s.region,
+                     .components = 1,
+                     .values = s.von_mises,
+                     .factor = stress_factor});
+    cells.push_back({.name = fmt::format("first principal stress [{}]", units_.stress),
+                     .region = s.region,
+                     .components = 1,
+                     .values = s.principal,
+                     .factor = stress_factor});
+    for (std::size_t f = 0; f < s.fibre.size(); ++f)
+      cells.push_back({.name = fmt::format("stress along fibres {} [{}]", f + 1, units_.stress),
+                       .region = s.region,
+                       .components = 1,
+                       .values = s.fibre[f],
+                       .factor = stress_factor});
+  }
+  writer.write(step, time, nodal, cells);
+}
+
+}  // namespace tunica::artifacts

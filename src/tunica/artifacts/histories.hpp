@@ -1,0 +1,71 @@
+// Histories of a run: tables in CSV files that gain a line with every step.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tunica/bc/outlets.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/coupling/monitors.hpp"
+
+namespace tunica::artifacts {
+
+/// One CSV file. The first column is the number of the step, an integer. Not collective: for one rank.
+class CsvTable {
+ public:
+  /// Begins the file anew, or with `continue_from` keeps the lines up to that step. `columns` after the first one, with
+  /// their units. Throws InputError when the file cannot be written or is to be continued and has other columns.
+  CsvTable(const std::filesystem::path& file, std::vector<std::string> columns,
+           std::optional<std::int64_t> continue_from);
+
+  /// Adds a line, which is on disk when the call returns. Throws SolverError when that fails.
+  void append(std::int64_t step, std::span<const double> values);
+
+ private:
+  std::filesystem::path file_;
+  std::size_t columns_;
+};
+
+/// What one accepted step leaves in the histories.
+struct StepHistory {
+  std::int64_t step = 0;  ///< accepted steps so far, parts of steps counted
+  double time = 0;        ///< at the end of the step [s]
+  double dt = 0;          ///< [s]
+  double evaluated = 0;   ///< time that `record` belongs to [s]
+  coupling::StepRecord record;
+  coupling::StepReport report;
+};
+
+/// The histories of a run, in the units of the case:
+/// - faces.csv: flow, mean pressure and area of each lumen face;
+/// - outlets.csv: flow, pressure and stored pressure of each resistance and RCR outlet, at the end of the step;
+/// - balance.csv: volumes, energies, powers, and what is left of the balances of mass and interface power;
+/// - steps.csv: iterations, norms and seconds of each step.
+/// Files that the analysis has nothing for are not made. In statics the load factor stands for the time.
+class Histories {
+ public:
+  /// Not collective; `faces`: lumen faces in the order of the mesh. Throws as CsvTable.
+  Histories(const std::filesystem::path& folder, const case_file::Case& c, const std::vector<std::string>& faces,
+            const std::vector<bc::Outlet>& outlets, std::optional<std::int64_t> continue_from);
+
+  void append(const StepHistory& step, const std::vector<bc::Outlet>& outlets);
+
+  static std::vector<std::string> files() {
+    return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv"};
+  }
+
+ private:
+  struct Factors {
+    double time, area, volume, flow, pressure, length, velocity;
+  };
+  std::vector<double> balance_line(const StepHistory& step) const;
+
+  Factors per_si_;
+  std::optional<CsvTable> faces_, outlets_, balance_, steps_;
+};
+
+}  // namespace tunica::artifacts

@@ -1,0 +1,147 @@
+#include "tunica/artifacts/manifest.hpp"
+
+#include <fmt/format.h>
+#include <petscversion.h>
+#include <sys/resource.h>
+#include <vtkVersion.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tunica/artifacts/checkpoint.hpp"
+#include "tunica/artifacts/histories.hpp"
+#include "tunica/assembly/isa.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/files/hash.hpp"
+#include "tunica/files/series_file.hpp"
+#include "tunica/files/time_stamp.hpp"
+
+namespace tunica::artifacts {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* file_name = "manifest.json";
+
+std::uint64_t from_hex(const std::string& text) { return std::stoull(text, nullptr, 16); }
+
+std::string mpi_version() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+  int length = 0;
+  MPI_Get_library_version(text, &length);
+  const std::string version(text);
+  return version.substr(0, version.find(','));
+}
+
+ordered_json libraries() {
+  return {{"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
+          {"MPI", mpi_version()},
+          {"VTK", vtkVersion::GetVTKVersion()},
+          {"compiler", __VERSION__}};
+}
+
+/// Does `name` look like <region>_<step>.pvtu or <region>_<step>_<rank>.vtu?
+bool is_series_file(const std::string& name, const std::string& region) {
+  if (!name.starts_with(region + "_") || !(name.ends_with(".vtu") || name.ends_with(".pvtu"))) return false;
+  const auto end = name.begin() + static_cast<std::ptrdiff_t>(name.rfind('.'));
+  return std::all_of(name.begin() + static_cast<std::ptrdiff_t>(region.size()) + 1, end,
+                     [](unsigned char c) { return std::isdigit(c) || c == '_'; });
+}
+
+ordered_json read_manifest(const fs::path& file) {
+  std::ifstream in(file);
+  auto json = ordered_json::parse(in, nullptr, false);
+  if (json.is_discarded())
+    throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
+  return json;
+}
+
+}  // namespace
+
+Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool continued)
+    : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(files::time_stamp()) {
+  if (continued && fs::exists(file_)) earlier_runs_ = read_manifest(file_).value("runs", ordered_json::array()).dump();
+}
+
+void Manifest::write(const ManifestProgress& p) {
+  ordered_json regions = ordered_json::array(), runs = ordered_json::parse(earlier_runs_);
+  for (const auto& [name, elements] : head_.regions) regions.push_back({{"name", name}, {"elements", elements}});
+  const bool running = p.status == "running";
+  runs.push_back({{"started", started_},
+                  {"ended", running ? "" : files::time_stamp()},
+                  {"status", p.status},
+                  {"message", p.message},
+                  {"ranks", head_.ranks},
+                  {"first_step", head_.first_step},
+                  {"last_step", p.last_step},
+                  {"time [s]", p.time},
+                  {"newton_iterations", p.newton_iterations},
+                  {"linear_iterations", p.linear_iterations},
+                  {"rejected_steps", p.rejected_steps},
+                  {"seconds",
+                   {{"total", p.total_seconds},
+                    {"set_up", p.set_up_seconds},
+                    {"steps", p.timings.total},
+                    {"assembly", p.timings.assembly},
+                    {"preconditioner", p.timings.set_up},
+                    {"linear", p.timings.linear},
+                    {"mesh_motion", p.timings.mesh}}},
+                  {"peak_memory [MB]", p.peak_memory / 1e6}});
+  const ordered_json manifest = {
+      {"tunica",
+       {{"version", head_.program.version},
+        {"commit", head_.program.commit},
+        {"instruction_set", assembly::name(assembly::choose_isa())}}},
+      {"libraries", libraries()},
+      {"case", {{"file", head_.case_file.string()}, {"hash", files::hex(head_.case_hash)}, {"text", head_.case_text}}},
+      {"mesh",
+       {{"hash", files::hex(head_.mesh_hash)},
+        {"nodes", head_.nodes},
+        {"elements", head_.elements},
+        {"regions", regions}}},
+      {"runs", runs}};
+  files::write_atomically(file_, manifest.dump(2) + "\n");
+}
+
+std::optional<EarlierResults> find_results(const fs::path& folder) {
+  const fs::path file = folder / file_name;
+  if (!fs::exists(file)) return std::nullopt;
+  const ordered_json json = read_manifest(file);
+  try {
+    EarlierResults results;
+    results.case_hash = from_hex(json.at("case").at("hash"));
+    results.case_file = json.at("case").at("file");
+    results.mesh_hash = from_hex(json.at("mesh").at("hash"));
+    results.status = json.at("runs").back().at("status");
+    results.last_step = json.at("runs").back().at("last_step");
+    for (const auto& region : json.at("mesh").at("regions")) results.regions.push_back(region.at("name"));
+    return results;
+  } catch (const std::exception&) {
+    throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
+  }
+}
+
+void remove_results(const fs::path& folder, const EarlierResults& results) {
+  std::vector<fs::path> files = list_checkpoints(folder / "checkpoints");
+  for (const auto& name : Histories::files()) files.push_back(folder / name);
+  for (const auto& region : results.regions) {
+    files.push_back(folder / (region + ".pvd"));
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (is_series_file(entry.path().filename().string(), region)) files.push_back(entry.path());
+  }
+  files.push_back(folder / "run.log");
+  files.push_back(folder / file_name);  // last: as long as it is there, the folder is known to hold results
+  for (const auto& file : files) fs::remove(file);
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace tunica::artifacts

@@ -1,0 +1,76 @@
+// The run manifest: what was run with what, and how it ended. And the folder of results that it describes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tunica/coupling/problem.hpp"
+#include "tunica/distributed/distributed_mesh.hpp"
+
+namespace tunica::artifacts {
+
+/// Version of this program, and the commit that it was built from.
+struct ProgramVersion {
+  std::string version, commit;
+};
+
+/// What does not change while a run goes on.
+struct ManifestHead {
+  ProgramVersion program;
+  std::filesystem::path case_file;
+  std::string case_text;
+  std::uint64_t case_hash = 0, mesh_hash = 0;
+  int ranks = 1;
+  std::int64_t nodes = 0, elements = 0;
+  std::vector<std::pair<std::string, std::int64_t>> regions;  ///< name, elements
+  std::int64_t first_step = 0;                                ///< completed steps at the start
+};
+
+/// How far it came.
+struct ManifestProgress {
+  std::string status = "running";  ///< or completed, stopped, failed
+  std::string message;
+  std::int64_t last_step = 0, newton_iterations = 0, linear_iterations = 0, rejected_steps = 0;
+  double time = 0;                ///< s
+  coupling::StepTimings timings;  ///< sums over the steps
+  double set_up_seconds = 0, total_seconds = 0;
+  double peak_memory = 0;  ///< sum over the ranks [byte]
+};
+
+/// manifest.json in the folder of the results. A restart adds an entry to the list of runs. Not collective: for one
+/// rank.
+class Manifest {
+ public:
+  /// `continued`: keep the list of earlier runs.
+  Manifest(const std::filesystem::path& folder, const ManifestHead& head, bool continued);
+  /// Writes the file anew. Throws SolverError when it cannot.
+  void write(const ManifestProgress& progress);
+
+ private:
+  std::filesystem::path file_;
+  ManifestHead head_;
+  std::string earlier_runs_;  ///< JSON list
+  std::string started_;
+};
+
+/// What a manifest tells about results that are there already.
+struct EarlierResults {
+  std::uint64_t case_hash = 0, mesh_hash = 0;
+  std::string case_file, status;
+  std::int64_t last_step = 0;
+  std::vector<std::string> regions;
+};
+/// None when there is no manifest. Throws InputError when there is one that cannot be read. Not collective.
+std::optional<EarlierResults> find_results(const std::filesystem::path& folder);
+
+/// Removes the files that a run writes, and nothing else. Not collective.
+void remove_results(const std::filesystem::path& folder, const EarlierResults& results);
+
+/// Largest resident memory of this process so far [byte].
+double peak_memory();
+
+}  // namespace tunica::artifacts

@@ -1,0 +1,161 @@
+#include "tunica/artifacts/prestress_file.hpp"
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/error.hpp"
+#include "tunica/files/hash.hpp"
+#include "tunica/mesh_io/vtk_files.hpp"
+#include "tunica/wall/output.hpp"
+
+namespace tunica::artifacts {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+vtkNew<vtkDoubleArray> array(const char* name, int components, std::size_t cells) {
+  vtkNew<vtkDoubleArray> result;
+  result->SetName(name);
+  result->SetNumberOfComponents(components);
+  result->SetNumberOfTuples(static_cast<vtkIdType>(cells));
+  return result;
+}
+
+void set_shape(vtkUnstructuredGrid* grid, const mesh::MeshData& data) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& x : data.points) points->InsertNextPoint(x.x);
+  grid->SetPoints(points);
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkIdTypeArray> number;
+  number->SetName("GlobalElementID");
+  for (const auto& element : data.tetrahedra) {
+    const vtkIdType corners[4] = {element[0], element[1], element[2], element[3]};
+    cells->InsertNextCell(4, corners);
+    number->InsertNextValue(number->GetNumberOfValues() + 1);
+  }
+  grid->SetCells(VTK_TETRA, cells);
+  vtkNew<vtkIntArray> region;
+  region->SetName("region");
+  for (std::size_t r = 0; r < data.regions.size(); ++r)
+    for (auto e = data.regions[r].first_element; e < data.regions[r].end_element; ++e)
+      region->InsertNextValue(static_cast<int>(r) + 1);
+  grid->GetCellData()->AddArray(number);
+  grid->GetCellData()->AddArray(region);
+}
+
+void add_invariants(vtkUnstructuredGrid* grid, std::span<const double> values) {
+  constexpr double kPa = 1e3;
+  const std::size_t cells = values.size() / wall::voigt_size;
+  const auto equivalent = array("von Mises stress [kPa]", 1, cells),
+             principal = array("first principal stress [kPa]", 1, cells);
+  for (std::size_t e = 0; e < cells; ++e) {
+    wall::Symmetric<double> S0;
+    for (std::size_t k = 0; k < wall::voigt_size; ++k) S0[static_cast<int>(k)] = values[wall::voigt_size * e + k];
+    equivalent->SetValue(static_cast<vtkIdType>(e), wall::von_mises(S0) / kPa);
+    principal->SetValue(static_cast<vtkIdType>(e), wall::principal_stresses(S0)[0] / kPa);
+  }
+  grid->GetCellData()->AddArray(equivalent);
+  grid->GetCellData()->AddArray(principal);
+}
+
+/// What is wrong with the file, empty when nothing is. `wall`: the wall elements of `data`.
+std::string mismatch(const mesh_io::VtkCells& file, const mesh::MeshData& data, const std::vector<std::int64_t>& wall) {
+  const auto cells = std::ssize(file.types);
+  if (cells != std::ssize(wall)) return fmt::format("has {} elements, the wall has {}", cells, wall.size());
+  if (std::ssize(file.global_element_ids) != cells) return "has no cell array GlobalElementID";
+  double size = 0.0;
+  for (const auto& x : data.points)
+    for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(x[i]));
+  std::vector<char> seen(wall.size(), 0);
+  for (std::int64_t c = 0; c < cells; ++c) {
+    const auto id = file.global_element_ids[static_cast<std::size_t>(c)];
+    if (id < 1 || id > cells || seen[static_cast<std::size_t>(id - 1)]++)
+      return fmt::format("names element {} in cell {}, twice or out of 1 to {}", id, c + 1, cells);
+    const auto& corners = data.tetrahedra[static_cast<std::size_t>(wall[static_cast<std::size_t>(id - 1)])];
+    const auto first = static_cast<std::size_t>(file.offsets[static_cast<std::size_t>(c)]);
+    if (file.offsets[static_cast<std::size_t>(c) + 1] != static_cast<std::int64_t>(first + 4))
+      return fmt::format("has a cell {} that is no tetrahedron", c + 1);
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto& x = file.points[static_cast<std::size_t>(file.connectivity[first + a])];
+      const auto& X = data.points[static_cast<std::size_t>(corners[a])];
+      if (!(norm(x - X) <= 1e-9 * size))
+        return fmt::format(
+            "has corner {} of element {} at ({:.6g}, {:.6g}, {:.6g}) m, the wall at ({:.6g}, {:.6g}, "
+            "{:.6g}) m",
+            a + 1, id, x[0], x[1], x[2], X[0], X[1], X[2]);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void write_prestress(const fs::path& file, const mesh::MeshData& data, wall::PrestressKind kind,
+                     std::span<const double> values) {
+  const int n = wall::components(kind);
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_shape(grid, data);
+  const auto prestress = array(wall::prestress_array, n, data.tetrahedra.size());
+  std::copy(values.begin(), values.end(), prestress->GetPointer(0));
+  grid->GetCellData()->AddArray(prestress);
+  if (kind == wall::PrestressKind::stress) add_invariants(grid, values);
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputData(grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  if (writer->Write() != 1) throw SolverError(file.string() + ": cannot be written");
+}
+
+void read_prestress(const fs::path& file, mesh::MeshData& data) {
+  const mesh_io::VtkCells cells = mesh_io::read_vtk_volume(file, {wall::prestress_array});
+  std::vector<std::int64_t> wall;
+  for (const auto& region : data.regions)
+    for (auto e = region.first_element; e < region.end_element && region.kind == mesh::RegionKind::wall; ++e)
+      wall.push_back(e);
+  if (const std::string wrong = mismatch(cells, data, wall); !wrong.empty())
+    throw InputError(file.string(), wrong, "find the prestress of this mesh by `tunica prestress`");
+  const mesh::ElementField& found = cells.fields[0];
+  if (found.components != 6 && found.components != 9)
+    throw InputError(file.string(), fmt::format("`prestress` has {} components", found.components),
+                     "6 are a stress, 9 a deformation gradient");
+  const auto n = static_cast<std::size_t>(found.components);
+  mesh::ElementField field{wall::prestress_array, found.components, {}};
+  field.values.assign(n * data.tetrahedra.size(), std::nan(""));
+  for (std::size_t c = 0; c < wall.size(); ++c) {
+    const auto e = static_cast<std::size_t>(wall[static_cast<std::size_t>(cells.global_element_ids[c] - 1)]);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double value = found.values[n * c + k];
+      if (!std::isfinite(value))
+        throw InputError(file.string(), fmt::format("`prestress` is not finite in cell {}", c + 1),
+                         "find it anew by `tunica prestress`");
+      field.values[n * e + k] = value;
+    }
+  }
+  data.fields.push_back(std::move(field));
+}
+
+std::uint64_t prestress_hash(const mesh::MeshData& data) {
+  for (const auto& field : data.fields)
+    if (field.name == wall::prestress_array) {
+      files::Hash hash;
+      hash.add(field.values.data(), field.values.size() * sizeof(double));
+      return hash.value();
+    }
+  return 0;
+}
+
+}  // namespace tunica::artifacts

@@ -1,0 +1,22 @@
+#include "tunica/artifacts/problem_input.hpp"
+
+#include "tunica/artifacts/load_mesh.hpp"
+
+namespace tunica::artifacts {
+
+coupling::ProblemInput problem_input(const case_file::Case& c) {
+  coupling::ProblemInput input;
+  input.fluid = c.fluid;
+  input.wall = c.wall;
+  if (c.mesh_motion) input.mesh_motion = *c.mesh_motion;
+  input.boundary.conditions = c.boundary;
+  input.boundary.interfaces = interface_pairs(c.meshes);
+  input.boundary.wall_has_pressure = c.wall && c.wall->element == wall::Element::mixed;
+  input.boundary.fluid = c.fluid;
+  if (c.time) input.rho_infinity = c.time->rho_infinity;
+  input.newton = c.newton;
+  input.linear = c.linear;
+  return input;
+}
+
+}  // namespace tunica::artifacts

@@ -1,0 +1,426 @@
+#include "tunica/case/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/bc/waveform.hpp"
+
+namespace tunica::case_file {
+
+using config::Problems;
+using config::Schema;
+namespace dimension = config::dimension;
+
+namespace {
+
+// --- what is computed ---------------------------------------------------------------------------------------------
+
+Schema<StaticWall> static_wall_schema() {
+  return Schema<StaticWall>("static_wall", "Wall alone, in equilibrium with its loads.")
+      .integer("load_steps", &StaticWall::load_steps, config::range(1, 100000),
+               "Equal steps in which loads are applied")
+      .by_default()
+      .quantity("load_time", &StaticWall::load_time, dimension::time, config::at_least(0),
+                "Loads that vary in time are those of this time")
+      .by_default();
+}
+
+Schema<Analysis> analysis_schema() {
+  return Schema<Analysis>("analysis", "What is computed.")
+      .one_of()
+      .alternative(Schema<FluidStructure>("fsi", "Blood and wall, coupled."))
+      .alternative(Schema<RigidFlow>("flow", "Blood in a rigid wall."))
+      .alternative(Schema<DynamicWall>("wall", "Wall alone, with inertia."))
+      .alternative(static_wall_schema());
+}
+
+std::string name(const Analysis& analysis) { return analysis_schema().description()->fields[analysis.index()].key; }
+
+// --- meshes -------------------------------------------------------------------------------------------------------
+
+Schema<RegionMesh> region_mesh_schema() {
+  return Schema<RegionMesh>("mesh", "Mesh of one region.")
+      .folder("simvascular", &RegionMesh::simvascular, "`mesh-complete` folder as exported by SimVascular");
+}
+
+Schema<int> region_number_schema() {
+  return Schema<int>("region_number", "Number of a region in the cell array.")
+      .integer(
+          "number", [](int& number) -> int& { return number; }, config::range(-1000000, 1000000), "Number")
+      .shorthand("number");
+}
+
+Schema<WallMesh> wall_mesh_schema() {
+  return Schema<WallMesh>("wall_mesh", "Mesh of the wall, one region called wall or several.")
+      .folder("simvascular", &WallMesh::simvascular, "`mesh-complete` folder as exported by SimVascular")
+      .text("region_array", &WallMesh::region_array,
+            "Cell array of integers that tells regions apart, such as ModelRegionID")
+      .map("regions", &WallMesh::regions, region_number_schema(),
+           "Every number of that array: `true_lumen_wall: 1`, `flap: 2`")
+      .by_default()
+      .check([](const WallMesh& m, Problems& problems) {
+        if (m.region_array.has_value() == m.regions.empty())
+          problems.add("regions",
+                       m.region_array ? "is empty, but region_array is given" : "is given without region_array",
+                       "give both, or neither for a wall of one region");
+        std::map<int, std::string> known;
+        for (const auto& [name, number] : m.regions)
+          if (const auto [other, is_new] = known.emplace(number, name); !is_new)
+            problems.add("regions." + name, fmt::format("is {}, as is {}", number, other->second),
+                         "give every region its own number");
+      });
+}
+
+Schema<mesh::RegionKind> region_kind_schema() {
+  return Schema<mesh::RegionKind>("region", "A region of the mesh.")
+      .choice(
+          "kind", [](mesh::RegionKind& kind) -> mesh::RegionKind& { return kind; },
+          {{"lumen", mesh::RegionKind::lumen}, {"wall", mesh::RegionKind::wall}}, "Filled with blood, or solid")
+      .shorthand("kind");
+}
+
+Schema<GmshMesh> gmsh_schema() {
+  return Schema<GmshMesh>("gmsh", "Gmsh file, version 4.1.")
+      .file("file", &GmshMesh::file, "The .msh file; volumes and boundary surfaces belong to named physical groups")
+      .map("regions", &GmshMesh::regions, region_kind_schema(), "Every physical volume, by its name")
+      .check([](const GmshMesh& gmsh, Problems& problems) {
+        if (gmsh.regions.empty())
+          problems.add("regions", "names no region", "write `<physical volume>: lumen` or `wall`");
+        const auto lumens = std::count_if(gmsh.regions.begin(), gmsh.regions.end(),
+                                          [](const auto& r) { return r.second == mesh::RegionKind::lumen; });
+        if (lumens > 1)
+          problems.add("regions", fmt::format("names {} lumens", lumens), "join them to one physical volume");
+      });
+}
+
+Schema<mesh::TubeSizes> tube_schema() {
+  using mesh::TubeSizes;
+  return Schema<TubeSizes>("tube",
+                           "Straight round tube along z that tunica meshes itself: faces lumen_inlet, lumen_outlet, "
+                           "lumen_wall, and with a wall wall_inlet, wall_outlet, wall_inner, wall_outer.")
+      .quantity("radius", &TubeSizes::radius, dimension::length, config::above(0), "Radius of the lumen")
+      .quantity("length", &TubeSizes::length, dimension::length, config::above(0), "Length")
+      .quantity("wall_thickness", &TubeSizes::wall_thickness, dimension::length, config::at_least(0), "0: no wall")
+      .by_default()
+      .integer("cells_around", &TubeSizes::cells_around, config::range(4, 10000), "Multiple of 4")
+      .by_default()
+      .integer("cells_radial", &TubeSizes::cells_radial, config::range(1, 10000),
+               "Between the square core and the wall")
+      .by_default()
+      .integer("cells_along", &TubeSizes::cells_along, config::range(1, 100000), "Along the tube")
+      .by_default()
+      .integer("cells_through_wall", &TubeSizes::cells_through_wall, config::range(1, 1000), "Through the wall")
+      .by_default()
+      .check([](const TubeSizes& tube, Problems& problems) {
+        if (tube.cells_around % 4 != 0)
+          problems.add("cells_around", fmt::format("is {}, no multiple of 4", tube.cells_around),
+                       fmt::format("write {}", tube.cells_around / 4 * 4 + 4));
+      });
+}
+
+Schema<InterfaceSettings> interface_schema() {
+  return Schema<InterfaceSettings>("interface", "Surface that lumen and wall have in common.")
+      .texts("lumen", &InterfaceSettings::lumen_faces, "Face or faces of the lumen")
+      .texts("wall", &InterfaceSettings::wall_faces, "Face or faces of the wall that coincide with them")
+      .number("tolerance", &InterfaceSettings::tolerance, config::between(0, 0.5),
+              "Largest distance of two nodes that are taken as one, as a share of the shortest edge there")
+      .by_default();
+}
+
+void check_meshes(const MeshSettings& m, Problems& problems) {
+  const int sources = (m.lumen || m.wall) + m.gmsh.has_value() + m.tube.has_value();
+  if (sources != 1) {
+    problems.add("", sources == 0 ? "no mesh is given" : "meshes from more than one source are given",
+                 "give `lumen` and/or `wall`, or `gmsh`, or `tube`");
+  }
+  const bool files = m.lumen || m.wall || m.gmsh;
+  if (files && !m.metres_per_unit)
+    problems.add("", "`length_unit` is missing: unit of the coordinates in the mesh files",
+                 "add `length_unit: mm`, cm or m");
+  if (!files && m.metres_per_unit)
+    problems.add("length_unit", "is given, but no mesh is read from a file",
+                 "remove it: the sizes have their own units");
+}
+
+// --- output -------------------------------------------------------------------------------------------------------
+
+struct OutputUnit {
+  const char* key;
+  std::string OutputUnits::*member;
+  config::Dimension due;
+  const char* help;
+};
+constexpr OutputUnit output_units[] = {
+    {"length", &OutputUnits::length, dimension::length,
+     "Coordinates, displacement; squared and cubed for area and volume"},
+    {"time", &OutputUnits::time, dimension::time,
+     "Time in histories and on the screen; series for ParaView count in s"},
+    {"velocity", &OutputUnits::velocity, dimension::velocity, "Velocity"},
+    {"pressure", &OutputUnits::pressure, dimension::pressure, "Pressure"},
+    {"stress", &OutputUnits::stress, dimension::pressure, "Stress and traction"},
+    {"flow", &OutputUnits::flow, dimension::volume_flow, "Volume flow"},
+};
+
+// --- the whole ----------------------------------------------------------------------------------------------------
+
+struct Part {
+  const char* key;
+  bool wanted, present;
+  const char* remedy;  ///< when it is wanted and missing
+};
+
+/// What the stages before the run give is not given besides.
+void check_chain(const Case& c, Problems& problems) {
+  if (c.mesh.has_value() == c.meshes.given())
+    problems.add(c.mesh ? "meshes" : "", c.mesh ? "is given, and `mesh` too" : "`meshes` is missing: no mesh is given",
+                 "give `meshes`, which are there, or `mesh`, which is made first");
+  if (c.mesh && !(c.solves_fluid() && c.solves_wall()))
+    problems.add("mesh", "makes lumen and wall, but the analysis is of one of them",
+                 "choose `analysis: fsi`, or make the mesh by `tunica mesh` and give what is wanted of it as `meshes`");
+  if (!c.compare.empty() && !c.solves_wall())
+    problems.add("compare", "is given, but the analysis has no wall", "remove it");
+  if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
+  if (!c.is_chain() || !c.prestress) return;
+  const char* remedy = "remove it: that of the stage `prestress` is taken";
+  if (c.wall && c.wall->prestress) problems.add("wall.prestress", "is given, and the section `prestress` too", remedy);
+  if (c.start) problems.add("start", "is given, and the section `prestress` too", remedy);
+}
+
+void check_case(const Case& c, Problems& problems) {
+  const bool coupled = c.solves_fluid() && c.solves_wall(),
+             static_wall = std::holds_alternative<StaticWall>(c.analysis);
+  const std::string analysis = name(c.analysis);
+  const Part parts[] = {
+      {"fluid", c.solves_fluid(), c.fluid.has_value(), "add `fluid:`; with `{}` it has the usual values of blood"},
+      {"wall", c.solves_wall(), c.wall.has_value(), "add `wall:` with density and material"},
+      {"prestress", c.prestress && c.solves_wall(), c.prestress.has_value(), ""},
+      {"outlets", c.outlets && c.solves_fluid(), c.outlets.has_value(), ""},
+      {"mesh_motion", coupled, coupled || c.mesh_motion.has_value(), ""},
+      {"time", !static_wall, c.time.has_value(), "add `time: {step: 1 ms, steps: 100}`"},
+      {"meshes.lumen", c.solves_fluid(), c.mesh ? c.solves_fluid() : c.meshes.has_lumen(), "give a mesh of the lumen"},
+      {"meshes.wall", c.solves_wall(), c.mesh ? c.solves_wall() : c.meshes.has_wall(), "give a mesh of the wall"},
+      {"meshes.interface", coupled, c.mesh ? coupled : c.meshes.interface.has_value(),
+       "name the surface that both have in common: `interface: {lumen: <face>, wall: <face>}`"},
+  };
+  for (const Part& part : parts) {
+    if (part.wanted && !part.present)
+      problems.add(part.key, fmt::format("is missing, but `analysis: {}` needs it", analysis), part.remedy);
+    if (!part.wanted && part.present)
+      problems.add(part.key, fmt::format("is given, but `analysis: {}` does not use it", analysis),
+                   "remove it, or choose another analysis");
+  }
+  check_chain(c, problems);
+  if (c.prestress && c.solves_wall()) {
+    if (coupled && !c.prestress->flow)
+      problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",
+                   "add `flow: {pressure: 80 mmHg, inflow: 80 ml/s}`");
+    if (!coupled && c.prestress->flow)
+      problems.add("prestress.flow", fmt::format("is given, but `analysis: {}` has no flow", analysis),
+                   "remove it: the loads on the wall are those of `boundary`");
+  }
+  if (c.outlets)
+    for (const auto& [face, share] : c.outlets->fractions)
+      if (std::any_of(c.boundary.begin(), c.boundary.end(), [&](const auto& b) { return b.first == face; }))
+        problems.add("boundary." + face, "is an outlet of `outlets.fractions` as well",
+                     "remove it from one of them: tuned outlets have no entry in `boundary`");
+  if (c.time && c.time->cycles && !c.solves_fluid())
+    problems.add("time.cycles", fmt::format("is given, but `analysis: {}` has no openings to look at", analysis),
+                 "give `steps`");
+  if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
+}
+
+/// A run can only become periodic when a cycle holds whole periods of everything that drives it.
+void check_period(const Case& c, const std::string& where, const bc::Waveform& course, std::vector<Problem>& found) {
+  if (!c.time || !c.time->cycles || !course.period()) return;
+  const double periods = c.time->cycles->period / *course.period();
+  if (periods < 0.5 || std::abs(periods - std::round(periods)) > 1e-6)
+    found.push_back({"time.cycles.period",
+                     fmt::format("of {:.9g} s is no multiple of the period of {:.9g} s of {}", c.time->cycles->period,
+                                 *course.period(), where),
+                     "give the period of the waveform"});
+}
+
+/// Tables that do not read or make no waveform, each named by its place in the case file.
+std::vector<Problem> check_waveforms(const Case& c) {
+  std::vector<Problem> found;
+  for (const auto& [face, condition] : c.boundary) {
+    const std::string where = "boundary." + face;
+    const auto check = [&](const bc::Waveform& course) { check_period(c, where, course, found); };
+    try {
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) check(bc::inflow(*flow));
+      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) check(bc::make_waveform(pressure->pressure));
+      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) check(bc::make_waveform(velocity->course));
+      if (const auto* traction = std::get_if<bc::Traction>(&condition)) check(bc::make_waveform(traction->course));
+    } catch (const InputError& error) {
+      for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
+    }
+  }
+  return found;
+}
+
+/// The fractions add up to 1 exactly, and the outlets get conditions, so that whatever looks at the faces finds one on
+/// each.
+void place_outlets(Case& c, std::vector<Problem>& warnings) {
+  double sum = 0;
+  for (const auto& [face, share] : c.outlets->fractions) sum += share;
+  if (std::abs(sum - 1) > 1e-9)
+    warnings.push_back({"outlets.fractions", fmt::format("add up to {:.6g}", sum), "they are divided by that sum"});
+  for (auto& [face, share] : c.outlets->fractions) share /= sum;
+  for (auto& outlet : provisional_outlets(*c.outlets)) c.boundary.push_back(std::move(outlet));
+}
+
+config::Parsed<Case> parse(const std::string& yaml, const std::filesystem::path& file, bool check_files) {
+  const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = check_files};
+  config::Parsed<Case> parsed = config::parse_document(Case::schema(), case_document(yaml, file), origin);
+  Case& c = parsed.value;
+  if (c.solves_fluid() && c.solves_wall() && !c.mesh_motion) c.mesh_motion.emplace();
+  if (c.outlets) place_outlets(c, parsed.warnings);
+  return parsed;
+}
+
+}  // namespace
+
+bool MeshSettings::has_lumen() const {
+  if (!gmsh) return lumen || tube;
+  return std::any_of(gmsh->regions.begin(), gmsh->regions.end(),
+                     [](const auto& region) { return region.second == mesh::RegionKind::lumen; });
+}
+
+bool MeshSettings::has_wall() const {
+  if (!gmsh) return wall || (tube && tube->wall_thickness > 0);
+  return std::any_of(gmsh->regions.begin(), gmsh->regions.end(),
+                     [](const auto& region) { return region.second == mesh::RegionKind::wall; });
+}
+
+Schema<MeshSettings> MeshSettings::schema() {
+  return Schema<MeshSettings>("meshes",
+                              "Meshes of the regions: `lumen` and/or `wall`, each in its own files, or `gmsh` with all "
+                              "regions in one file, or `tube`.")
+      .unit("length_unit", &MeshSettings::metres_per_unit, dimension::length,
+            "Unit of the coordinates in the mesh files; needed when there are any")
+      .section("lumen", &MeshSettings::lumen, region_mesh_schema(), "Region filled with blood")
+      .section("wall", &MeshSettings::wall, wall_mesh_schema(), "Solid region")
+      .section("gmsh", &MeshSettings::gmsh, gmsh_schema(), "All regions in one file")
+      .section("tube", &MeshSettings::tube, tube_schema(), "A tube without files")
+      .section("interface", &MeshSettings::interface, interface_schema(),
+               "Where lumen and wall meet; needed for fluid-structure interaction")
+      .check(check_meshes);
+}
+
+Schema<OutputUnits> OutputUnits::schema() {
+  Schema<OutputUnits> schema("units", "Units of results.");
+  for (const OutputUnit& unit : output_units) schema.text(unit.key, unit.member, unit.help).by_default();
+  return schema.check([](const OutputUnits& units, Problems& problems) {
+    for (const OutputUnit& unit : output_units) {
+      const auto factor = config::parse_unit(units.*unit.member, unit.due);
+      if (const auto* error = std::get_if<config::UnitError>(&factor))
+        problems.add(unit.key, error->what, error->remedy);
+    }
+  });
+}
+
+Schema<OutputSettings> OutputSettings::schema() {
+  return Schema<OutputSettings>("output", "Where, how often and in which units results are written.")
+      .path("directory", &OutputSettings::directory, "Folder of the results, relative to that of the case file")
+      .by_default("results")
+      .integer("every", &OutputSettings::every, config::range(1, 1e9), "Steps between two fields of the time series")
+      .by_default()
+      .integer(
+          "checkpoint_every", &OutputSettings::checkpoint_every, config::range(1, 1e9),
+          "Steps between two checkpoints; one is also written after two minutes without, at the end, and when a run is "
+          "interrupted")
+      .by_default()
+      .section("units", &OutputSettings::units, OutputUnits::schema(), "Units of fields and histories")
+      .by_default();
+}
+
+bool Case::solves_fluid() const {
+  return std::holds_alternative<FluidStructure>(analysis) || std::holds_alternative<RigidFlow>(analysis);
+}
+
+bool Case::solves_wall() const { return !std::holds_alternative<RigidFlow>(analysis); }
+
+Schema<Case> Case::schema() {
+  return Schema<Case>("tunica case",
+                      "A case file is YAML. Every dimensional value has its unit: `125 mmHg`, `0.04 dyn s/cm^2`, "
+                      "`0.2 ms`. Unknown keys are errors. File names are relative to the folder of the case file.")
+      .text("title", &Case::title, "Free text for logs and reports")
+      .by_default()
+      .section("analysis", &Case::analysis, analysis_schema(), "What is computed")
+      .section("mesh", &Case::mesh, MeshCase::schema(),
+               "What `tunica run` meshes first, as in the file of `tunica mesh`; in place of `meshes`")
+      .section("meshes", &Case::meshes, MeshSettings::schema(), "Meshes that are there; in place of `mesh`")
+      .optional()
+      .section("fibres", &Case::fibres, FibreSettings::schema(),
+               "Material directions that `tunica run` makes first, as in the file of `tunica fibres`; inlet, outer and "
+               "tears may be left out after `mesh`")
+      .section("fluid", &Case::fluid, fluid::Parameters::schema(), "Blood; for `fsi` and `flow`")
+      .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")
+      .section("mesh_motion", &Case::mesh_motion, ale::Parameters::schema(),
+               "How the mesh of the lumen follows the wall; for `fsi`, with its defaults when left out")
+      .map("boundary", &Case::boundary, bc::condition_schema(),
+           "The condition of every face except the interface, by the name of the face")
+      .section("time", &Case::time, coupling::TimeSettings::schema(), "Time stepping; for all but `static_wall`")
+      .path("start", &Case::start,
+            "State that the run starts from: start.checkpoint of `tunica prestress`; at rest when left out")
+      .section("prestress", &Case::prestress, PrestressCase::schema(), "What `tunica prestress` shall find, and how")
+      .section("outlets", &Case::outlets, TuningCase::schema(),
+               "Outlets by pressures and shares of the flow, which `tunica tune` finds")
+      .section("post", &Case::post, analysis::PostSettings::schema(),
+               "What `tunica post` makes of the results; with its defaults when left out")
+      .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
+      .map("compare", &Case::compare, ComparedLaw::schema(),
+           "Wall laws that `tunica compare` puts side by side, by the names that they shall have")
+      .by_default()
+      .section("newton", &Case::newton, coupling::NewtonSettings::schema(), "Nonlinear solver")
+      .by_default()
+      .section("linear", &Case::linear, coupling::LinearSettings::schema(), "Linear solver")
+      .by_default()
+      .section("output", &Case::output, OutputSettings::schema(), "Results")
+      .by_default()
+      .check(check_case);
+}
+
+config::Document case_document(const std::string& yaml, const std::filesystem::path& file) {
+  config::Document document(yaml, file.string());
+  if (document.has("fibres") && document.has("wall") && !document.has("wall.fibre_frame"))
+    document.set("wall.fibre_frame", config::Document("mesh: {e1: e1, e2: e2}"));
+  return document;
+}
+
+config::Parsed<Case> read_case(const std::filesystem::path& file) {
+  config::Parsed<Case> parsed = parse(config::read_text(file), file, true);
+  std::vector<Problem> problems = check_waveforms(parsed.value);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return parsed;
+}
+
+Case parse_case(const std::string& yaml, const std::filesystem::path& file) { return parse(yaml, file, false).value; }
+
+std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSettings& meshes) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  if (!meshes.interface) return pairs;
+  const auto &lumen = meshes.interface->lumen_faces, &wall = meshes.interface->wall_faces;
+  for (std::size_t k = 0; k < std::max(lumen.size(), wall.size()); ++k)
+    pairs.emplace_back(lumen[std::min(k, lumen.size() - 1)], wall[std::min(k, wall.size() - 1)]);
+  return pairs;
+}
+
+analysis::RunDescription describe(const Case& c) {
+  analysis::RunDescription run{.fluid = c.solves_fluid(),
+                               .wall = c.solves_wall(),
+                               .interface = c.meshes.interface.has_value(),
+                               .sticking_faces = {},
+                               .inflow_faces = {},
+                               .length_unit = c.output.units.length};
+  for (const auto& [lumen, wall] : interface_pairs(c.meshes)) run.sticking_faces.push_back(lumen);
+  for (const auto& [face, condition] : c.boundary) {
+    if (std::holds_alternative<bc::NoSlip>(condition)) run.sticking_faces.push_back(face);
+    if (std::holds_alternative<bc::Flow>(condition)) run.inflow_faces.push_back(face);
+  }
+  return run;
+}
+
+}  // namespace tunica::case_file

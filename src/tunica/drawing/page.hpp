@@ -1,0 +1,30 @@
+// HTML of pages that need no other file: reports of meshes and of cases.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tunica::drawing::page {
+
+/// Text in which nothing is taken for markup.
+std::string escaped(const std::string& text);
+
+/// From the first character of the file to the title as a heading, and its end.
+std::string begin(const std::string& title);
+std::string end();
+/// What stands between these two in a page, without the heading.
+std::string body(const std::string& page);
+
+/// "data:image/png;base64,..." for an <img>; `type`: png or svg+xml.
+std::string data_url(const std::vector<std::uint8_t>& bytes, const std::string& type = "png");
+/// A picture of data_url() with a line below it.
+std::string picture(const std::string& url, const std::string& caption);
+/// A drawing of draw_plot().
+std::string drawing(const std::string& svg);
+
+/// A row of cells; `tag`: td, or th for a head. Cells are markup.
+std::string row(const std::vector<std::string>& cells, const char* tag = "td");
+std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace tunica::drawing::page

@@ -1,0 +1,110 @@
+#include "tunica/geometry/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace tunica::geometry {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Neighbours of each point along edges.
+std::vector<std::vector<std::int64_t>> neighbours(const TriangleSurface& surface) {
+  std::vector<std::vector<std::int64_t>> result(surface.points.size());
+  for (const auto& edge : edges(surface)) {
+    result[edge.a].push_back(edge.b);
+    result[edge.b].push_back(edge.a);
+  }
+  return result;
+}
+
+}  // namespace
+
+SizeField::SizeField(TriangleSurface surface, std::vector<double> sizes, double gradation, double largest)
+    : tree_(std::move(surface)), sizes_(std::move(sizes)), gradation_(gradation), largest_(largest) {}
+
+double SizeField::operator()(const Point& x) const {
+  // Beyond this distance the growth has reached the largest size anyway.
+  const auto at = tree_.nearest(x, largest_ / gradation_);
+  return at ? std::min(largest_, tree_.interpolate(sizes_, at) + gradation_ * at.distance) : largest_;
+}
+
+Thickness wall_thickness(const TriangleTree& lumen, const TriangleTree* outer, double reach) {
+  const auto& points = lumen.surface().points;
+  const auto normals = point_normals(lumen.surface());
+  Thickness thickness{std::vector<double>(points.size(), infinity), std::vector<std::uint8_t>(points.size(), 0)};
+  // Within 60 degrees in front; facing by more than a right angle plus what a curved wall turns over its thickness.
+  constexpr double in_front = 0.5, facing = 0.3;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const auto& n = normals[p];
+    const auto ahead = [&](const SurfacePoint& q) { return dot(q.place - points[p], n) > in_front * q.distance; };
+    const auto across = lumen.nearest_if(points[p], reach, [&](const SurfacePoint& q) {
+      return dot(lumen.normal(q.triangle), n) < -facing && ahead(q);
+    });
+    if (across) thickness.value[p] = across.distance;
+    thickness.flap[p] = static_cast<bool>(across);
+    if (!outer) continue;
+    const auto outside = outer->nearest_if(points[p], std::min(reach, thickness.value[p]), [&](const SurfacePoint& q) {
+      return dot(outer->normal(q.triangle), n) > facing && ahead(q);
+    });
+    if (!outside) continue;
+    thickness.value[p] = outside.distance;
+    thickness.flap[p] = 0;
+  }
+  return thickness;
+}
+
+std::vector<double> curvature_radius(const TriangleSurface& surface) {
+  const auto near = neighbours(surface);
+  auto normals = point_normals(surface);
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    const auto before = normals;
+    for (std::size_t p = 0; p < near.size(); ++p) {
+      for (const auto q : near[p]) normals[p] = normals[p] + before[q];
+      if (const double length = norm(normals[p]); length > 0) normals[p] = (1 / length) * normals[p];
+    }
+  }
+  std::vector<double> radius(surface.points.size(), infinity);
+  for (std::size_t p = 0; p < near.size(); ++p)
+    for (const auto q : near[p]) {
+      const auto e = surface.points[q] - surface.points[p];
+      const double turn = std::abs(dot(normals[q] - normals[p], e));
+      if (turn > 0) radius[p] = std::min(radius[p], dot(e, e) / turn);
+    }
+  return radius;
+}
+
+void limit_gradation(const TriangleSurface& surface, double gradation, std::vector<double>& sizes) {
+  const auto near = neighbours(surface);
+  using Entry = std::pair<double, std::int64_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::int64_t p = 0; p < std::ssize(sizes); ++p) queue.emplace(sizes[p], p);
+  while (!queue.empty()) {
+    const auto [size, p] = queue.top();
+    queue.pop();
+    if (size > sizes[p]) continue;
+    for (const auto q : near[p]) {
+      const double allowed = size + gradation * norm(surface.points[q] - surface.points[p]);
+      if (allowed >= sizes[q]) continue;
+      sizes[q] = allowed;
+      queue.emplace(allowed, q);
+    }
+  }
+}
+
+std::vector<double> surface_sizes(const TriangleSurface& surface, std::span<const double> thickness,
+                                  const SizeSettings& settings) {
+  auto sizes = curvature_radius(surface);
+  for (std::size_t p = 0; p < sizes.size(); ++p) {
+    sizes[p] *= settings.per_radius;
+    if (!thickness.empty()) sizes[p] = std::min(sizes[p], settings.per_thickness * thickness[p]);
+    sizes[p] = std::clamp(sizes[p], settings.smallest, settings.largest);
+  }
+  limit_gradation(surface, settings.gradation, sizes);
+  return sizes;
+}
+
+}  // namespace tunica::geometry

@@ -1,0 +1,31 @@
+// Reading VTK XML files into plain arrays, so that no other file needs VTK's headers.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tunica/base/tensor.hpp"
+#include "tunica/mesh/mesh_data.hpp"
+
+namespace tunica::mesh_io {
+
+/// Points and cells as the file has them, in its unit.
+struct VtkCells {
+  std::vector<Vec3<double>> points;
+  std::vector<int> types;                  ///< VTK cell types
+  std::vector<std::int64_t> offsets;       ///< where each cell starts in `connectivity`, one past the end for the last
+  std::vector<std::int64_t> connectivity;  ///< 0-based points
+  std::vector<std::int64_t> global_node_ids, global_element_ids;  ///< as in the file; empty when it has none
+  std::vector<mesh::ElementField> fields;                         ///< the cell arrays that were asked for
+  std::vector<mesh::NodeField> node_fields;                       ///< the point arrays that were asked for
+};
+
+/// Reads a .vtu or .vtp file of any encoding. Throws InputError when it is missing, not of that kind, damaged, or its
+/// cells name points that do not exist. `fields`: cell arrays, or of a surface point arrays of one component, to be
+/// read, too; one that is absent is an error.
+VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
+VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
+
+}  // namespace tunica::mesh_io

@@ -1,0 +1,38 @@
+// What can be meshed, and the surfaces that each kind of geometry gives.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tunica/geometry/parametric_dissection.hpp"
+#include "tunica/meshing/grown_wall.hpp"
+#include "tunica/meshing/image_geometry.hpp"
+
+namespace tunica::meshing {
+
+/// Surfaces of a patient in files, open at the vessel ends.
+struct SurfaceFiles {
+  std::filesystem::path lumen, false_lumen, outer_wall, openings;  ///< all but the first may be empty
+  double metres_per_unit = 0;
+  VesselRoles roles;
+  std::optional<GrowthSettings> wall;  ///< for the wall that is grown when there is no outer one
+
+  static config::Schema<SurfaceFiles> schema();
+};
+
+using Geometry = std::variant<geometry::ParametricDissection, SurfaceFiles, ImageGeometry>;
+config::Schema<Geometry> geometry_schema();
+
+/// Surfaces of lumen and wall, and what their openings are.
+struct GeometrySurfaces {
+  PatientSurfaces surfaces;
+  int lumen_parts = 1;
+  VesselRoles roles;
+};
+
+/// Reads or makes the surfaces; grows the wall where none is given. Errors as of the functions that it calls.
+GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options);
+
+}  // namespace tunica::meshing

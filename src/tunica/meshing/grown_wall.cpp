@@ -1,0 +1,86 @@
+#include "tunica/meshing/grown_wall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tunica/meshing/tetrahedralise.hpp"
+
+namespace tunica::meshing {
+
+namespace {
+
+bool by_region(const GrowthSettings& growth) {
+  return growth.true_lumen_wall || growth.false_lumen_wall || growth.branches;
+}
+
+/// The region of the wall at each point of the lumen surface, from a coarse mesh.
+std::vector<WallRegion> regions_at(const geometry::TriangleSurface& lumen, const PatientSurfaces& surfaces,
+                                   const VesselRoles& roles, const ComplexOptions& options) {
+  auto coarse = options;
+  coarse.sizes.largest = 5e-3;
+  coarse.sizes.per_radius = 0.6;
+  coarse.sizes.per_thickness = 1.5;
+  coarse.log = [](const std::string&) {};
+  const auto prepared = patient_complex(surfaces, coarse);
+  const auto openings = with_inlet_first(prepared.openings, roles);
+  const auto mesh = tetrahedralise(prepared.complex, prepared.sizes, {.in_lumen = 2, .in_wall = 2});
+  const auto faces = sort_surface(mesh, openings);
+  const auto regions = wall_regions(mesh, faces, openings, roles);
+  std::vector<WallRegion> of_triangle;
+  geometry::TriangleSurface interface {
+    mesh.points, {}
+  };
+  for (const auto& t : geometry::surface_triangles(mesh))
+    if (t.neighbour_label == geometry::wall_label) {
+      interface.triangles.push_back(t.nodes);
+      of_triangle.push_back(regions.of_element[t.neighbour]);
+    }
+  const geometry::TriangleTree tree(std::move(interface));
+  std::vector<WallRegion> result;
+  for (const auto& p : lumen.points) result.push_back(of_triangle[tree.nearest(p).triangle]);
+  return result;
+}
+
+/// How often values have to be averaged over neighbours to spread over a length [m]: the spread of a random walk grows
+/// with the square root of its steps.
+int sweeps_over(const geometry::TriangleSurface& surface, double length) {
+  const auto all = geometry::edges(surface);
+  double mean = 0;
+  for (const auto& e : all) mean += norm(surface.points[e.a] - surface.points[e.b]) / static_cast<double>(all.size());
+  return std::clamp(static_cast<int>(length * length / (mean * mean)), 2, 60);
+}
+
+void log_thickness(const std::vector<double>& thickness, const Log& log) {
+  const auto [least, most] = std::minmax_element(thickness.begin(), thickness.end());
+  log(fmt::format("wall to be grown: {:.2f} to {:.2f} mm thick", 1e3 * *least, 1e3 * *most));
+}
+
+}  // namespace
+
+PatientSurfaces with_grown_wall(const geometry::TriangleSurface& lumen, const std::vector<geometry::NamedPlace>& names,
+                                const GrowthSettings& growth, const VesselRoles& roles, const ComplexOptions& options) {
+  PatientSurfaces surfaces{mended(lumen, "lumen surface", options.lumen_parts, options), {}, names};
+  const auto openings = geometry::find_openings(surfaces.lumen, nullptr, names);
+  geometry::flatten_rims(surfaces.lumen, openings, &geometry::Opening::lumen);
+  auto thickness = thickness_by_radius(surfaces.lumen, openings, growth);
+  log_thickness(thickness, options.log);
+  surfaces.outer = grow_wall(surfaces.lumen, thickness, openings, growth);
+  if (!by_region(growth)) return surfaces;
+
+  const auto region = regions_at(surfaces.lumen, surfaces, roles, options);
+  for (std::size_t p = 0; p < thickness.size(); ++p) {
+    const auto& given = region[p] == WallRegion::true_lumen_wall    ? growth.true_lumen_wall
+                        : region[p] == WallRegion::false_lumen_wall ? growth.false_lumen_wall
+                        : region[p] == WallRegion::branches         ? growth.branches
+                                                                    : std::optional<double>();
+    if (given) thickness[p] = *given;
+  }
+  constexpr double transition = 3e-3;  // m
+  geometry::average_over_neighbours(surfaces.lumen, sweeps_over(surfaces.lumen, transition), thickness);
+  log_thickness(thickness, options.log);
+  surfaces.outer = grow_wall(surfaces.lumen, thickness, openings, growth);
+  return surfaces;
+}
+
+}  // namespace tunica::meshing

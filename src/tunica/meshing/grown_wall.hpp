@@ -1,0 +1,17 @@
+// A wall around a lumen surface alone.
+#pragma once
+
+#include "tunica/meshing/patient_complex.hpp"
+#include "tunica/meshing/vessel_roles.hpp"
+#include "tunica/meshing/wall_growth.hpp"
+
+namespace tunica::meshing {
+
+/// Adds the outer surface to a lumen surface, open at the vessel ends: a wall grown outward, thicker around wider
+/// vessels. Where `growth` gives thicknesses by region, a coarse mesh with a first wall tells the regions, and the wall
+/// is grown again; the thickness changes smoothly between regions. Errors as of `mend_surface`, `find_openings`,
+/// `grow_wall` and, by region, of `patient_complex` and `tetrahedralise`.
+PatientSurfaces with_grown_wall(const geometry::TriangleSurface& lumen, const std::vector<geometry::NamedPlace>& names,
+                                const GrowthSettings& growth, const VesselRoles& roles, const ComplexOptions& options);
+
+}  // namespace tunica::meshing

@@ -1,0 +1,43 @@
+// Which part of the wall is which, found from the mesh alone, so that it works for any dissection.
+//
+// The flap is wall wetted on both sides by different lumens. Which lumen is which: every lumen node gets a value that
+// wants to equal its neighbours' and to be the opposite of the value across a thin wall, with the inlet held at 1.
+// Blood that the inlet reaches without crossing a tear keeps a positive value, that behind the tears a negative one,
+// since a tear is small against the flap. (Minimum of a signed graph Laplacian: Kunegis et al. 2010, SDM, 559-570.)
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tunica/geometry/tetrahedra.hpp"
+
+namespace tunica::meshing {
+
+enum class WallRegion { true_lumen_wall, false_lumen_wall, flap, branches };
+inline constexpr std::array<const char*, 4> wall_region_names = {"true_lumen_wall", "false_lumen_wall", "flap",
+                                                                 "branches"};
+
+struct WallRegions {
+  std::vector<WallRegion> of_element;  ///< for wall elements; true_lumen_wall and meaningless for others
+  std::vector<double> side;            ///< of each lumen node: > 0 true lumen, < 0 false lumen; 0 for other nodes
+};
+
+struct WallRegionOptions {
+  double thickest_flap = 4e-3;   ///< thicker walls between two lumens are no flap [m]
+  double branch_widening = 1.8;  ///< a branch ends where its cross-section has grown by this factor
+  std::vector<geometry::Point> true_lumen{},
+      false_lumen{};  ///< places known to lie there [m]; the inlet counts only without
+};
+
+/// Cap triangles of one opening, as they are in surface_triangles().
+struct Cap {
+  std::vector<std::array<geometry::Index, 3>> triangles;
+  bool branch;  ///< does the vessel that ends here leave the aorta as a branch?
+};
+
+/// `caps`: lumen caps, the inlet first. Throws InputError when the inlet has no triangle, and for
+/// places far from the lumen.
+WallRegions find_wall_regions(const geometry::Tetrahedra& mesh, const std::vector<Cap>& caps,
+                              const WallRegionOptions& options);
+
+}  // namespace tunica::meshing

@@ -1,0 +1,245 @@
+#include "tunica/pipeline/chain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tunica/base/error.hpp"
+#include "tunica/case/face_patterns.hpp"
+#include "tunica/files/series_file.hpp"
+#include "tunica/mesh/boundary.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/pipeline/plan.hpp"
+
+namespace tunica::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Number of the wanted stage with this name. Throws InputError when there is none.
+std::size_t place_of(const std::vector<const Stage*>& wanted, const std::string& name, const char* option) {
+  const auto at = std::find_if(wanted.begin(), wanted.end(), [&](const Stage* s) { return s->name == name; });
+  if (at != wanted.end()) return static_cast<std::size_t>(at - wanted.begin());
+  std::vector<std::string> names;
+  for (const auto* stage : wanted) names.emplace_back(stage->name);
+  throw InputError(option, fmt::format("`{}` is no stage of this case", name),
+                   "its stages: " + mesh::list_names(names));
+}
+
+/// Number of the first stage that is done in any case.
+std::size_t first_anew(const ChainRequest& request, const std::vector<const Stage*>& wanted) {
+  if (request.overwrite) return 0;
+  return request.from ? place_of(wanted, *request.from, "--from") : wanted.size();
+}
+
+/// First lines of a stage's case file.
+std::string head_of(const Chain& chain, const Stage& stage) {
+  const std::string command = stage.name == std::string("run") ? "run" : stage.name;
+  return fmt::format(
+      "# {}: made by `tunica run` from {}, and written anew by the next one.\n"
+      "# By hand, in this folder: tunica {} {}\n",
+      stage.what, fs::absolute(chain.file).lexically_normal().string(), command, stage.file);
+}
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string(), fmt::format("the folder cannot be made ({})", error.message()),
+                     "name one that can be created and written");
+}
+
+void remove_partial(const fs::path& folder, const Stage& stage) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder))
+    for (const auto& pattern : stage.partial)
+      if (case_file::matches(pattern, entry.path().filename().string())) found.push_back(entry.path());
+  for (const auto& path : found) fs::remove_all(path);
+}
+
+/// What all ranks know of the stage to come.
+struct Decision {
+  bool fresh = false, resume = false;
+};
+
+/// One `tunica run` of a chain. Its member functions are collective; chain and plan are those of rank 0.
+class ChainRun {
+ public:
+  ChainRun(const ChainRequest& request, MPI_Comm comm, std::FILE* screen)
+      : request_(request), comm_(comm), screen_(screen) {}
+
+  int steps() {
+    begin();
+    for (std::size_t k = 0; k < count_; ++k)
+      if (const int signal = one(k); signal != 0) return signal;
+    say(table());
+    return 0;
+  }
+
+ private:
+  struct Line {
+    std::string stage, state;
+    double seconds;
+  };
+
+  void begin() {
+    parallel::on_root(comm_, [&] {
+      std::vector<Problem> warnings;
+      chain_ = read_chain(request_.case_file, request_.directory, warnings);
+      chain_.program = request_.program;
+      for (const auto& warning : warnings) say("warning: " + format(warning));
+      const auto wanted = wanted_stages(chain_);
+      count_ = request_.until ? place_of(wanted, *request_.until, "--until") + 1 : wanted.size();
+      from_ = first_anew(request_, wanted);
+      for (const auto* stage : wanted) places_.push_back(static_cast<std::size_t>(stage - stages().data()));
+    });
+    parallel::broadcast(comm_, count_);
+    parallel::broadcast(comm_, places_);
+  }
+
+  int one(std::size_t k) {
+    const Stage& stage = stages()[places_[k]];
+    Decision decision = parallel::on_root(comm_, [&] { return decide(k, stage); });
+    parallel::broadcast(comm_, decision);
+    if (decision.fresh) return 0;
+    std::string file = parallel::on_root(comm_, [&] { return prepare(stage); });
+    parallel::broadcast(comm_, file);
+    const double start = MPI_Wtime();
+    try {
+      const int signal = stage.run(
+          {.comm = comm_, .file = file, .resume = decision.resume, .program = request_.program, .screen = screen_});
+      parallel::on_root(comm_, [&] { end(signal == 0 ? "done" : "stopped", "", MPI_Wtime() - start); });
+      return signal;
+    } catch (const InputError& error) {
+      record_failure(error.what(), MPI_Wtime() - start);
+      auto problems = error.problems();
+      for (auto& p : problems) p.where = fmt::format("stage {}: {}", stage.name, p.where);
+      throw InputError(std::move(problems));
+    } catch (const SolverError& error) {
+      record_failure(error.what(), MPI_Wtime() - start);
+      throw SolverError(fmt::format(
+          "stage {} ({} of {}) failed: {}\n  the stages before it are kept, and so is what it "
+          "has written to {}; to go on: tunica run {}",
+          stage.name, k + 1, count_, error.what(), fs::path(file).parent_path().string(), request_.case_file.string()));
+    }
+  }
+
+  // --- rank 0 -------------------------------------------------------------------------------------------------------
+
+  void say(const std::string& text) const {
+    if (parallel::rank(comm_) != 0 || !screen_) return;
+    std::fprintf(screen_, "%s\n", text.c_str());
+    std::fflush(screen_);
+  }
+
+  Decision decide(std::size_t k, const Stage& stage) {
+    plan_ = plan(chain_, stage, k >= from_);
+    const auto state = plan_.fresh ? fmt::format("reused from {}", plan_.last->time) : plan_.reason;
+    say(fmt::format("{}=== stage {}/{}: {} ({}): {}", k == 0 ? "" : "\n", k + 1, count_, stage.name, stage.what,
+                    state));
+    if (plan_.fresh) lines_.push_back({stage.name, "reused", plan_.last->seconds});
+    return {plan_.fresh, plan_.resume};
+  }
+
+  std::string prepare(const Stage& stage) {
+    const fs::path folder = folder_of(chain_, stage), file = folder / stage.file;
+    create_folder(folder);
+    if (!plan_.resume) remove_partial(folder, stage);
+    files::write_atomically(file, head_of(chain_, stage) + config::commented_yaml(plan_.document, *stage.description));
+    record_ = {.stage = stage.name,
+               .status = "running",
+               .message = "",
+               .inputs = plan_.inputs,
+               .seconds = plan_.resume ? plan_.last->seconds : 0,
+               .ranks = parallel::size(comm_),
+               .version = request_.program.version,
+               .commit = request_.program.commit,
+               .time = ""};
+    folder_ = folder;
+    write_record(folder, record_);
+    return file.string();
+  }
+
+  void end(const std::string& status, const std::string& message, double seconds) {
+    record_.status = status;
+    record_.message = message;
+    record_.seconds += seconds;
+    write_record(folder_, record_);
+    lines_.push_back({record_.stage, status, record_.seconds});
+  }
+
+  void record_failure(const std::string& message, double seconds) {
+    if (parallel::rank(comm_) == 0) end("failed", message, seconds);
+  }
+
+  std::string table() const {
+    std::string text = fmt::format("\n{:<12}{:<10}{:>10}\n", "stage", "", "seconds");
+    for (const auto& line : lines_)
+      text += fmt::format("{:<12}{:<10}{:>10.1f}\n", line.stage, line.state, line.seconds);
+    return text + "results in " + chain_.output.string();
+  }
+
+  const ChainRequest& request_;
+  MPI_Comm comm_;
+  std::FILE* screen_;
+  std::size_t count_ = 0;            ///< stages that are looked at
+  std::vector<std::size_t> places_;  ///< of the wanted stages in stages()
+
+  Chain chain_;
+  std::size_t from_ = 0;  ///< first stage that is done in any case
+  Plan plan_;
+  Record record_;
+  fs::path folder_;
+  std::vector<Line> lines_;
+};
+
+}  // namespace
+
+bool is_chain(const fs::path& case_file, MPI_Comm comm) {
+  bool chain = parallel::on_root(comm, [&] {
+    const config::Document document(config::read_text(case_file), case_file.string());
+    return document.has("mesh") || document.has("fibres") || document.has("report");
+  });
+  parallel::broadcast(comm, chain);
+  return chain;
+}
+
+std::vector<std::string> check_chain(const ChainRequest& request) {
+  std::vector<Problem> warnings;
+  const Chain chain = read_chain(request.case_file, request.directory, warnings);
+  std::vector<std::string> lines;
+  for (const auto& warning : warnings) lines.push_back("warning: " + format(warning));
+  const auto wanted = wanted_stages(chain);
+  const auto end = request.until ? place_of(wanted, *request.until, "--until") + 1 : wanted.size();
+  const auto from = first_anew(request, wanted);
+  std::string earlier;  // the first stage that will be done: those after it read its result
+  for (std::size_t k = 0; k < end; ++k) {
+    const Stage& stage = *wanted[k];
+    std::string state = "would be done: ";
+    if (!earlier.empty()) {
+      state += earlier + " comes before it";
+    } else {
+      const Plan p = plan(chain, stage, k >= from);
+      if (p.fresh)
+        state = fmt::format("fresh, of {}{}", p.last->time,
+                            p.last->version == request.program.version ? "" : ", by version " + p.last->version);
+      else
+        state += p.reason, earlier = stage.name;
+    }
+    lines.push_back(fmt::format("{}/{} {:<10} {}", k + 1, end, stage.name, state));
+  }
+  return lines;
+}
+
+int run_chain(const ChainRequest& request, MPI_Comm comm, std::FILE* screen) {
+  if (request.dry_run) {
+    parallel::on_root(comm, [&] {
+      for (const auto& line : check_chain(request)) std::fprintf(screen, "%s\n", line.c_str());
+    });
+    return 0;
+  }
+  return ChainRun(request, comm, screen).steps();
+}
+
+}  // namespace tunica::pipeline

@@ -1,0 +1,82 @@
+// What the chain knows of a stage. To add one: write its entry in stages.cpp.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/config/document.hpp"
+
+namespace tunica::pipeline {
+
+/// The whole case file.
+struct Chain {
+  std::filesystem::path file;
+  config::Document document;     ///< as it was read; its paths count from the folder of the file
+  case_file::Case settings;      ///< the same in values
+  std::filesystem::path output;  ///< folder of results
+  artifacts::ProgramVersion program;
+};
+
+/// One time of a stage, on all ranks.
+struct StageCall {
+  MPI_Comm comm;
+  std::filesystem::path file;  ///< its case file
+  bool resume = false;         ///< go on with what is in the folder, as far as the stage can
+  artifacts::ProgramVersion program{};
+  std::FILE* screen = stdout;
+
+  std::filesystem::path folder() const { return file.parent_path(); }
+};
+
+/// What has changed since the last time, by name.
+struct Change {
+  std::vector<std::string> settings;             ///< keys of the stage's case file
+  std::vector<std::string> files;                ///< that it reads
+  std::map<std::string, std::string> then, now;  ///< all settings
+};
+
+struct Stage {
+  const char* name;    ///< of its folder, and for --from and --until
+  const char* what;    ///< for the header
+  const char* file;    ///< name of its case file
+  const char* output;  ///< key of the case that names another folder; empty: there is none
+  const char* result;  ///< the file that is written last
+  std::function<bool(const case_file::Case&)> wanted;
+
+  /// Its case file, with paths that count from `folder`. On rank 0, when the stages before it are done.
+  std::function<config::Document(const Chain&, const std::filesystem::path& folder)> document;
+  const config::Description* description;
+  /// What the document settles. Throws InputError.
+  std::function<std::vector<config::Setting>(const config::Document&, const config::Origin&)> settings;
+  std::vector<std::string> without;  ///< patterns of keys that do not change the result
+  /// Files that it reads besides those that the document names; may be empty.
+  std::function<std::vector<std::filesystem::path>(const Chain&)> reads;
+
+  /// What it goes on with, as patterns of names in its folder: removed before it begins anew, so that a later call
+  /// cannot take what belongs to other inputs.
+  std::vector<std::string> partial;
+  /// Can it go on with what is there after such a change?
+  std::function<bool(const Change&)> continues;
+  /// Does it. Returns the signal that stopped it, 0: none. Collective.
+  std::function<int(const StageCall&)> run;
+};
+
+/// All stages, in order.
+const std::vector<Stage>& stages();
+
+/// The case with the mesh, directions and outlets that its stages have made, and its other stages still to be done;
+/// paths count from `folder`.
+config::Document case_on_common_mesh(const Chain& chain, const std::filesystem::path& folder);
+
+/// Where a stage of the chain writes.
+std::filesystem::path folder_of(const Chain& chain, const Stage& stage);
+
+}  // namespace tunica::pipeline

@@ -1,0 +1,423 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tunica/artifacts/checkpoint.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/case/face_patterns.hpp"
+#include "tunica/case/fibres_case.hpp"
+#include "tunica/meshing/assemble.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/patience.hpp"
+#include "tunica/pipeline/stage.hpp"
+#include "tunica/stages/fibres/fibres.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
+#include "tunica/stages/post/post.hpp"
+#include "tunica/stages/prestress/prestress.hpp"
+#include "tunica/stages/report/report.hpp"
+#include "tunica/stages/run/run.hpp"
+#include "tunica/stages/tuning/tune.hpp"
+
+namespace tunica::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+using config::Document;
+
+// --- case files of the stages ---------------------------------------------------------------------------------------
+
+template <class T>
+const config::Description* description_of() {
+  static const auto description = T::schema().description();
+  return description.get();
+}
+
+template <class T>
+std::vector<config::Setting> settings_of(const Document& document, const config::Origin& origin) {
+  std::vector<config::Setting> settings;
+  config::parse_document(T::schema(), document, origin, &settings);
+  return settings;
+}
+
+const Stage& stage(const std::string& name) {
+  return *std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == name; });
+}
+
+std::string path_to(const fs::path& file, const fs::path& folder) {
+  return fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal()).string();
+}
+
+/// The whole case with paths that count from a stage's folder.
+Document case_for(const Chain& chain, const fs::path& folder) {
+  Document document = chain.document;
+  config::move_paths(document, *description_of<case_file::Case>(), chain.file.parent_path(), folder);
+  return document;
+}
+
+/// What a stage left in its folder for the section `meshes`, or the section of the case.
+Document meshes_for(const Chain& chain, const fs::path& folder, bool with_fibres) {
+  const bool fibres = with_fibres && chain.settings.fibres;
+  if (!fibres && !chain.settings.mesh) return case_for(chain, folder).part("meshes");
+  const fs::path from = folder_of(chain, stage(fibres ? "fibres" : "mesh"));
+  const fs::path file = from / "meshes.yaml";
+  Document meshes = Document(config::read_text(file), file.string()).part("meshes");
+  config::move_paths(meshes, *description_of<case_file::MeshSettings>(), from, folder);
+  return meshes;
+}
+
+Document mesh_document(const Chain& chain, const fs::path& folder) {
+  Document mesh = case_for(chain, folder).part("mesh");
+  if (!mesh.has("title") && !chain.settings.title.empty()) mesh.set("title", chain.settings.title);
+  mesh.set("output", ".");
+  return mesh;
+}
+
+/// What the faces of a mesh of the stage `mesh` are.
+void name_ends(const Chain& chain, const Document& meshes, Document& fibres) {
+  std::ifstream stream(folder_of(chain, stage("mesh")) / "report.json");
+  const std::string first = nlohmann::json::parse(stream).at("faces").at(0).at("name");  // of the lumen, at the inlet
+  const std::string inlet = first.substr(first.find('_'));
+  if (!fibres.has("inlet")) fibres.set("inlet", Document(fmt::format("[wall{0}, lumen{0}]", inlet)));
+  if (!fibres.has("outer")) fibres.set("outer", "wall_outer");
+  if (!fibres.has("tears") && meshes.has("wall.regions.true_lumen_wall") && meshes.has("wall.regions.false_lumen_wall"))
+    fibres.set("tears", Document("{true_lumen: true_lumen_wall, false_lumen: false_lumen_wall}"));
+}
+
+Document fibres_document(const Chain& chain, const fs::path& folder) {
+  Document fibres = case_for(chain, folder).part("fibres");
+  const Document meshes = meshes_for(chain, folder, false);
+  if (chain.settings.mesh) name_ends(chain, meshes, fibres);
+  if (!chain.settings.title.empty()) fibres.set("title", chain.settings.title);
+  fibres.set("meshes", meshes);
+  fibres.set("output", ".");
+  return fibres;
+}
+
+/// A case on the mesh that was made, without the sections of stages.
+Document computed_case(const Chain& chain, const fs::path& folder) {
+  Document document = case_for(chain, folder);
+  for (const char* section : {"mesh", "fibres", "prestress", "post", "report", "compare"}) document.remove(section);
+  document.set("meshes", meshes_for(chain, folder, true));
+  return document;
+}
+
+Document prestress_document(const Chain& chain, const fs::path& folder) {
+  Document document = computed_case(chain, folder);
+  document.set("prestress", case_for(chain, folder).part("prestress"));
+  document.set("prestress.output", ".");
+  document.set("output.directory", ".");
+  return document;
+}
+
+/// The prestress and the state that the case starts from, where the stage `prestress` has found them.
+void set_start(const Chain& chain, const fs::path& folder, Document& document) {
+  if (!chain.settings.prestress) return;
+  const fs::path found = folder_of(chain, stage("prestress"));
+  document.set("wall.prestress", path_to(found / "wall.vtu", folder));
+  document.set("start", path_to(found / "start.checkpoint", folder));
+}
+
+/// The outlets, where the stage `outlets` has found them.
+void set_outlets_file(const Chain& chain, const fs::path& folder, Document& document) {
+  const Stage& outlets = stage("outlets");
+  if (outlets.wanted(chain.settings))
+    document.set("outlets.file", path_to(folder_of(chain, outlets) / outlets.result, folder));
+}
+
+Document outlets_document(const Chain& chain, const fs::path& folder) {
+  Document document = computed_case(chain, folder);
+  set_start(chain, folder, document);
+  document.set("outlets.output", ".");
+  document.set("output.directory", ".");
+  return document;
+}
+
+Document run_document(const Chain& chain, const fs::path& folder) {
+  Document document = computed_case(chain, folder);
+  set_start(chain, folder, document);
+  set_outlets_file(chain, folder, document);
+  document.set("output.directory", ".");
+  return document;
+}
+
+Document post_document(const Chain& chain, const fs::path& folder) {
+  Document document = run_document(chain, folder);
+  Document figures = case_for(chain, folder).part("post");
+  const bool has_window = figures.has("period") || figures.has("from") || figures.has("until");
+  if (!has_window && document.has("time.cycles.period")) figures.set("period", document.text("time.cycles.period"));
+  document.set("post", figures);
+  document.set("post.output", ".");
+  document.set("output.directory", path_to(folder_of(chain, stage("run")), folder));
+  return document;
+}
+
+/// The fields and histories of a run are as they are since this file was written.
+std::vector<fs::path> run_manifest(const Chain& chain) { return {folder_of(chain, stage("run")) / "manifest.json"}; }
+
+std::vector<fs::path> records(const Chain& chain) {
+  std::vector<fs::path> files;
+  for (const auto& s : stages())
+    if (s.wanted(chain.settings) && s.name != std::string("report"))
+      files.push_back(folder_of(chain, s) / "stage.json");
+  return files;
+}
+
+Document report_document(const Chain& chain, const fs::path& folder) {
+  Document document;
+  if (!chain.settings.title.empty()) document.set("title", chain.settings.title);
+  document.set("case", path_to(chain.file, folder));
+  for (const auto& s : stages())
+    if (s.wanted(chain.settings) && s.name != std::string("report"))
+      document.set(fmt::format("stages.{}", s.name), path_to(folder_of(chain, s), folder));
+  document.set("pictures", chain.settings.report->pictures ? "true" : "false");
+  document.set("length_unit", chain.settings.output.units.length);
+  document.set("output", ".");
+  return document;
+}
+
+// --- what is done ---------------------------------------------------------------------------------------------------
+
+files::Say say_to(const StageCall& call) {
+  const bool speaks = parallel::rank(call.comm) == 0 && call.screen;
+  return [speaks, screen = call.screen](const std::string& line) {
+    if (!speaks) return;
+    std::fprintf(screen, "%s\n", line.c_str());
+    std::fflush(screen);
+  };
+}
+
+bool on_all(MPI_Comm comm, const std::function<bool()>& ask) {
+  bool answer = parallel::on_root(comm, ask);
+  parallel::broadcast(comm, answer);
+  return answer;
+}
+
+int run_mesh(const StageCall& call) {
+  parallel::on_root_patiently(call.comm, [&] {
+    const auto say = say_to(call);
+    const auto parsed = case_file::read_mesh_case(call.file);
+    for (const auto& warning : parsed.warnings) say("warning: " + format(warning));
+    say(fmt::format("\n{}", stages::mesh_to_files(parsed.value, true, say)));
+  });
+  return 0;
+}
+
+int run_fibres(const StageCall& call) {
+  const auto say = say_to(call);
+  say(fmt::format("\n{}", stages::fibres::fibres_to_files({.file = call.file, .overwrite = true}, call.comm, say)));
+  return 0;
+}
+
+int run_prestress(const StageCall& call) {
+  stages::PrestressRequest request;
+  request.case_file = call.file;
+  request.program = call.program;
+  request.keep_flow = on_all(call.comm, [&] { return call.resume && fs::exists(call.folder() / "flow.checkpoint"); });
+  request.overwrite = !request.keep_flow;
+  stages::prestress(call.comm, request, call.screen);
+  return 0;
+}
+
+int run_outlets(const StageCall& call) {
+  stages::TuneRequest request;
+  request.case_file = call.file;
+  request.overwrite = !call.resume;
+  request.program = call.program;
+  return stages::tune(call.comm, request, call.screen);
+}
+
+int run_post(const StageCall& call) {
+  stages::post::PostRequest request;
+  request.case_file = call.file;
+  request.overwrite = true;
+  request.program = call.program;
+  stages::post::post_results(call.comm, request, call.screen);
+  return 0;
+}
+
+int run_case_stage(const StageCall& call) {
+  stages::RunRequest request;
+  request.case_file = call.file;
+  request.program = call.program;
+  request.restart = on_all(
+      call.comm, [&] { return call.resume && !artifacts::list_checkpoints(call.folder() / "checkpoints").empty(); });
+  request.overwrite = !request.restart;
+  return stages::run(call.comm, request, call.screen).signal;
+}
+
+int run_report(const StageCall& call) {
+  parallel::on_root_patiently(call.comm, [&] {
+    const auto say = say_to(call);
+    const auto parsed = stages::read_report_case(call.file);
+    const auto page = stages::report_to_file(parsed.value, call.program, true, say);
+    say(fmt::format("\nreport: {}", page.string()));
+  });
+  return 0;
+}
+
+// --- what can be kept -----------------------------------------------------------------------------------------------
+
+bool never(const Change&) { return false; }
+
+/// The steady flow does not know the wall, beyond the inside of its mesh, nor how the fixed point is found.
+bool same_flow(const Change& change) {
+  const auto of_wall = [](const std::string& key) {
+    return key.starts_with("wall.") || (key.starts_with("prestress.") && !key.starts_with("prestress.flow"));
+  };
+  return change.files.empty() && std::all_of(change.settings.begin(), change.settings.end(), of_wall);
+}
+
+bool more_steps(const Change& change) {
+  if (change.settings.size() != 1 || !change.files.empty()) return false;
+  const std::string& key = change.settings[0];
+  return (key == "time.steps" || key == "time.cycles.most") && change.then.contains(key) && change.now.contains(key) &&
+         std::stoll(change.now.at(key)) > std::stoll(change.then.at(key));
+}
+
+}  // namespace
+
+Document case_on_common_mesh(const Chain& chain, const fs::path& folder) {
+  Document document = case_for(chain, folder);
+  for (const char* key : {"mesh", "fibres", "compare", "prestress.output", "post.output"}) document.remove(key);
+  document.set("meshes", meshes_for(chain, folder, true));
+  set_outlets_file(chain, folder, document);
+  return document;
+}
+
+fs::path folder_of(const Chain& chain, const Stage& stage) {
+  const std::string given = chain.document.text(stage.output);
+  if (*stage.output == 0 || given.empty()) return chain.output / stage.name;
+  return (chain.file.parent_path() / given).lexically_normal();
+}
+
+const std::vector<Stage>& stages() {
+  static const std::vector<Stage> all = {
+      {.name = "mesh",
+       .what = "mesh of lumen and wall",
+       .file = "mesh.yaml",
+       .output = "mesh.output",
+       .result = "meshes.yaml",
+       .wanted = [](const case_file::Case& c) { return c.mesh.has_value(); },
+       .document = mesh_document,
+       .description = description_of<case_file::MeshCase>(),
+       .settings = settings_of<case_file::MeshCase>,
+       .without = {"title", "output"},
+       .reads = {},
+       .partial = {},
+       .continues = never,
+       .run = run_mesh},
+      {.name = "fibres",
+       .what = "material directions in the wall",
+       .file = "fibres.yaml",
+       .output = "fibres.output",
+       .result = "meshes.yaml",
+       .wanted = [](const case_file::Case& c) { return c.fibres.has_value(); },
+       .document = fibres_document,
+       .description = description_of<case_file::FibresCase>(),
+       .settings = settings_of<case_file::FibresCase>,
+       .without = {"title", "output"},
+       .reads = {},
+       .partial = {},
+       .continues = never,
+       .run = run_fibres},
+      {.name = "prestress",
+       .what = "prestress of the imaged wall",
+       .file = "case.yaml",
+       .output = "prestress.output",
+       .result = "start.checkpoint",
+       .wanted = [](const case_file::Case& c) { return c.prestress.has_value(); },
+       .document = prestress_document,
+       .description = description_of<case_file::Case>(),
+       .settings = settings_of<case_file::Case>,
+       // The steady flow has an inflow, resistances and a time step of its own.
+       .without = {"title",
+                   "output.*",
+                   "prestress.output",
+                   "mesh_motion.*",
+                   "time.step",
+                   "time.steps",
+                   "time.max_halvings",
+                   "time.cycles*",
+                   "time.adaptive*",
+                   "outlets.[!f]*",
+                   "outlets.file",
+                   "boundary.*.flow",
+                   "boundary.*.flow.value",
+                   "boundary.*.flow.step.*",
+                   "boundary.*.flow.table*",
+                   "boundary.*.flow.scale",
+                   "boundary.*.flow.ramp_time",
+                   "boundary.*.flow.positive",
+                   "boundary.*.rcr.capacitance",
+                   "boundary.*.rcr.initial_pressure"},
+       .reads = {},
+       .partial = {"flow.checkpoint"},
+       .continues = same_flow,
+       .run = run_prestress},
+      {.name = "outlets",
+       .what = "outlets for the pressures and flows that are asked for",
+       .file = "case.yaml",
+       .output = "outlets.output",
+       .result = "outlets.yaml",
+       .wanted = [](const case_file::Case& c) { return c.outlets && !c.outlets->given_file; },
+       .document = outlets_document,
+       .description = description_of<case_file::Case>(),
+       .settings = settings_of<case_file::Case>,
+       .without = {"title", "output.*", "time.step", "time.steps", "time.cycles*", "time.adaptive*", "outlets.output"},
+       .reads = {},
+       .partial = {"tuning.json", "probe", "cycle_*"},
+       .continues = never,
+       .run = run_outlets},
+      {.name = "run",
+       .what = "the case itself",
+       .file = "case.yaml",
+       .output = "",
+       .result = "manifest.json",
+       .wanted = [](const case_file::Case&) { return true; },
+       .document = run_document,
+       .description = description_of<case_file::Case>(),
+       .settings = settings_of<case_file::Case>,
+       .without = {"title", "output.directory", "output.checkpoint_every", "outlets.output", "outlets.tolerance",
+                   "outlets.max_cycles", "outlets.step"},
+       .reads = {},
+       .partial = {"checkpoints"},
+       .continues = more_steps,
+       .run = run_case_stage},
+      {.name = "post",
+       .what = "figures of the cycle",
+       .file = "case.yaml",
+       .output = "post.output",
+       .result = "post.json",
+       .wanted = [](const case_file::Case& c) { return c.post.has_value(); },
+       .document = post_document,
+       .description = description_of<case_file::Case>(),
+       .settings = settings_of<case_file::Case>,
+       // What else the results depend on is in the manifest of the run.
+       .without = {"title", "output.*", "post.output", "wall.prestress", "start", "time*", "newton*", "linear*",
+                   "mesh_motion*", "outlets*", "boundary*"},
+       .reads = run_manifest,
+       .partial = {},
+       .continues = never,
+       .run = run_post},
+      {.name = "report",
+       .what = "one page with what was done and found",
+       .file = "report.yaml",
+       .output = "",
+       .result = "report.html",
+       .wanted = [](const case_file::Case& c) { return c.report.has_value(); },
+       .document = report_document,
+       .description = description_of<stages::ReportCase>(),
+       .settings = settings_of<stages::ReportCase>,
+       .without = {"output", "stages.*"},
+       .reads = records,
+       .partial = {},
+       .continues = never,
+       .run = run_report},
+  };
+  return all;
+}
+
+}  // namespace tunica::pipeline

@@ -1,0 +1,45 @@
+// The tests of a material file: curves of stress, tables of everything at the material point, measured points beside.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "tunica/case/material_case.hpp"
+#include "tunica/wall/material_paths.hpp"
+
+namespace tunica::stages {
+
+/// What a test gives: one point for each load.
+struct MaterialCurve {
+  wall::FibreFrame axes;      ///< of the specimen; the fibre frame for given gradients
+  std::vector<double> loads;  ///< stretch or amount of shear along the first axis; 1, 2, ... for given gradients
+  std::vector<wall::PathPoint> points;
+};
+
+/// Throws SolverError naming the step, InputError for a table of gradients that does not read. `name` is for messages.
+MaterialCurve run_test(const std::string& name, const case_file::Loading& loading, const wall::Law& law,
+                       const wall::Volumetric& volumetric);
+
+/// The same at loads of the caller's choice, in their order; not for given gradients.
+MaterialCurve run_test_at(const std::string& name, const case_file::Loading& loading, const std::vector<double>& loads,
+                          const wall::Law& law, const wall::Volumetric& volumetric);
+
+/// Stress [Pa] at each point that belongs to the load: along the first axis, or in shear; `across`: along the second.
+std::vector<double> stresses(const MaterialCurve& curve, const case_file::Loading& loading,
+                             case_file::StressMeasure measure, bool across);
+
+/// How far a curve is from measured points.
+struct Deviation {
+  double rms = 0.0;                 ///< root of the mean square difference
+  std::optional<double> r_squared;  ///< 1 - sum of squares / sum of squares about the mean; none for equal values
+};
+Deviation deviation(const std::vector<double>& curve, const std::vector<double>& measured);
+
+/// Runs all tests, writes <test>.csv and <test>.svg (or .png) into the folder of results and a summary to `screen`.
+/// Throws InputError, SolverError.
+void run_material(const std::filesystem::path& file, const std::optional<std::filesystem::path>& directory,
+                  std::FILE* screen);
+
+}  // namespace tunica::stages

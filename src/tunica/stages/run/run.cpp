@@ -1,0 +1,505 @@
+#include "tunica/stages/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "tunica/artifacts/checkpoint.hpp"
+#include "tunica/artifacts/fields.hpp"
+#include "tunica/artifacts/histories.hpp"
+#include "tunica/artifacts/outlets_file.hpp"
+#include "tunica/artifacts/prestress_file.hpp"
+#include "tunica/artifacts/problem_input.hpp"
+#include "tunica/artifacts/step_grid.hpp"
+#include "tunica/assembly/isa.hpp"
+#include "tunica/assembly/time_scheme.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/config/units.hpp"
+#include "tunica/coupling/monitors.hpp"
+#include "tunica/files/hash.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/progress.hpp"
+#include "tunica/parallel/signals.hpp"
+#include "tunica/stages/run/adaptive_steps.hpp"
+#include "tunica/stages/run/cycles.hpp"
+
+namespace tunica::stages {
+
+namespace fs = std::filesystem;
+using coupling::StepReport;
+
+namespace {
+
+constexpr int static_halvings = 6;
+constexpr std::size_t kept_checkpoints = 2;
+
+/// What an end without warning costs at most, beside the step under way [s].
+constexpr double longest_without_checkpoint = 120;
+
+std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string(), fmt::format("the folder of results cannot be made ({})", error.message()),
+                     "name one that can be created and written");
+}
+
+/// One run from its first to its last step. Its member functions are collective.
+class Run {
+ public:
+  Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen);
+  RunOutcome steps();
+
+ private:
+  fs::path checkpoint_folder() const { return folder_ / "checkpoints"; }
+  bool is_static() const { return std::holds_alternative<case_file::StaticWall>(case_.analysis); }
+  bool continued() const { return request_.restart || request_.restart_file; }
+  std::int64_t last_step() const;
+  artifacts::StepGrid make_grid(const artifacts::StepGrid::Position* position) const;
+
+  void prepare_folder();
+  void distribute();
+  void restore();
+  void start_from(const fs::path& file);
+  void open_outputs();
+
+  StepReport attempt();
+  /// Takes one step, in parts if it must be. False when a signal came instead.
+  bool take_step();
+  void accepted(const StepReport& report, double dt, int wanted_level);
+  void judge(const StepReport& report, const coupling::State& before, double dt);
+  bool at_cycle_end() const {
+    return case_.time && case_.time->cycles && grid_.on_grid() && grid_.steps_done() > 0 &&
+           grid_.steps_done() % case_.time->steps_per_cycle() == 0;
+  }
+  /// At the end of a cycle: does it repeat the one before? `anew`: it has just been computed.
+  bool finish_cycle(bool anew);
+  void rejected(const StepReport& report);
+  void write_fields();
+  void save();
+  void record(const std::string& status, const std::string& message);
+  [[noreturn]] void give_up(const StepReport& report);
+
+  std::string time_text(double seconds) const;
+  std::string step_line(const StepReport& report, double dt) const;
+
+  const ReadCase& input_;
+  const case_file::Case& case_;
+  RunRequest request_;
+  MPI_Comm comm_;
+  double started_ = MPI_Wtime();
+  fs::path folder_;
+  double time_unit_;  ///< s
+
+  std::uint64_t case_hash_ = 0, mesh_hash_ = 0;
+  bool folder_has_results_ = false;
+  std::optional<parallel::Log> log_;
+  distributed::DistributedMesh mesh_;
+  std::optional<coupling::Problem> problem_;
+  std::optional<coupling::Monitors> monitors_;
+  std::optional<artifacts::OutputFields> fields_;
+  std::optional<distributed::ResultsWriter> writer_;
+  std::optional<artifacts::Histories> histories_;  ///< rank 0
+  std::optional<Cycles> cycles_;                   ///< rank 0, with cycles
+  std::optional<artifacts::Manifest> manifest_;    ///< rank 0
+  coupling::State state_;
+  artifacts::StepGrid grid_;
+  artifacts::ManifestProgress progress_;
+  fs::path last_checkpoint_;
+  std::int64_t fields_step_ = -1;       ///< last step whose fields are on disk
+  std::int64_t checkpoint_state_ = -1;  ///< accepted steps in the last checkpoint
+  std::optional<parallel::Progress> bar_;
+};
+
+Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen)
+    : input_(c),
+      case_(c.settings),
+      request_(request),
+      comm_(comm),
+      folder_(request.directory.value_or(c.settings.output.directory)),
+      time_unit_(config::unit_factor(c.settings.output.units.time, config::dimension::time)),
+      grid_(make_grid(nullptr)) {
+  mesh_hash_ = parallel::on_root(comm_, [&] { return artifacts::mesh_hash(input_.mesh.data); });
+  parallel::broadcast(comm_, mesh_hash_);
+  case_hash_ = parallel::on_root(comm_, [&] { return case_hash(input_); });
+  parallel::broadcast(comm_, case_hash_);
+  prepare_folder();
+  log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
+  if (!case_.title.empty()) log_->info(case_.title);
+  for (const auto& line : input_.mesh.report) log_->info(line);
+  for (const auto& line : input_.warnings) log_->warning(line);
+  for (const auto& line : input_.mesh.warnings) log_->warning(line);
+  distribute();
+  restore();
+  open_outputs();
+  progress_.set_up_seconds = MPI_Wtime() - started_;
+  record("running", "");
+}
+
+std::int64_t Run::last_step() const {
+  if (const auto* s = std::get_if<case_file::StaticWall>(&case_.analysis)) return s->load_steps;
+  return case_.time->most_steps();
+}
+
+// In statics the grid is that of the load factor.
+artifacts::StepGrid Run::make_grid(const artifacts::StepGrid::Position* position) const {
+  const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis);
+  const double nominal = statics ? 1.0 / statics->load_steps : case_.time->step;
+  const int halvings = statics                ? static_halvings
+                       : case_.time->adaptive ? std::max(case_.time->max_halvings, finest_level(*case_.time))
+                                              : case_.time->max_halvings;
+  return position ? artifacts::StepGrid(nominal, halvings, *position) : artifacts::StepGrid(nominal, halvings);
+}
+
+void Run::prepare_folder() {
+  folder_has_results_ = parallel::on_root(comm_, [&] {
+    const auto results = artifacts::find_results(folder_);
+    if (!results) return create_folder(folder_), false;
+    if (request_.overwrite) {
+      artifacts::remove_results(folder_, *results);
+      return false;
+    }
+    const std::string where = folder_.string();
+    const bool same_case = results->case_hash == case_hash_, same_mesh = results->mesh_hash == mesh_hash_;
+    if (!continued())
+      throw InputError(where,
+                       fmt::format("holds results of {}case {} ({}, {})", same_case ? "this " : "another ",
+                                   results->case_file, results->status, plural(results->last_step, "step")),
+                       same_case ? "go on with them by --restart, remove them by --overwrite, or choose another "
+                                   "folder by --output"
+                                 : "choose another folder by --output, or remove them by --overwrite");
+    if (!same_mesh)
+      throw InputError(where, fmt::format("holds results on another mesh, of case {}", results->case_file),
+                       "choose another folder by --output");
+    return true;
+  });
+  parallel::broadcast(comm_, folder_has_results_);
+}
+
+void Run::distribute() {
+  mesh_ = distributed::distribute(input_.mesh.data, comm_);
+  problem_.emplace(mesh_, artifacts::problem_input(case_));
+  monitors_.emplace(*problem_);
+  fields_.emplace(*problem_, case_);
+  log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
+                         plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
+  if (problem_->input().wall)
+    for (const auto& line : problem_->wall_model().notes()) log_->info(line);
+}
+
+// Fields and flows of the outlets, at time zero. A Windkessel that names no initial pressure starts from the pressure
+// that its face has there.
+void Run::start_from(const fs::path& file) {
+  const auto outlets = artifacts::read_start(file, mesh_, state_, mesh_hash_);
+  for (auto& outlet : state_.outlets) {
+    const auto found =
+        std::find_if(outlets.begin(), outlets.end(), [&](const auto& o) { return o.face == outlet.face(); });
+    if (found == outlets.end()) continue;
+    outlet.set_initial_flow(found->flow);
+    for (const auto& [face, condition] : case_.boundary)
+      if (const auto* rcr = std::get_if<bc::Rcr>(&condition); rcr && face == outlet.face() && !rcr->initial_pressure)
+        outlet.restore(std::array{found->flow, found->pressure - rcr->proximal * found->flow});
+  }
+  log_->info(fmt::format("starting from {}", file.string()));
+}
+
+void Run::restore() {
+  state_ = problem_->initial_state();
+  if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
+  if (case_.start && !continued()) start_from(*case_.start);
+  if (!continued()) return;
+  std::string name = parallel::on_root(comm_, [&] {
+    if (request_.restart_file) return request_.restart_file->string();
+    const auto files = artifacts::list_checkpoints(checkpoint_folder());
+    if (files.empty())
+      throw InputError(checkpoint_folder().string(), "holds no checkpoint to restart from",
+                       "run without --restart, or name one by --restart FILE");
+    return files.back().string();
+  });
+  parallel::broadcast(comm_, name);
+  artifacts::Checkpoint checkpoint = artifacts::read_checkpoint(name, mesh_, state_, mesh_hash_);
+  state_ = std::move(checkpoint.state);
+  grid_ = make_grid(&checkpoint.position);
+  if (case_.time && case_.time->cycles && checkpoint.position.nominal != case_.time->step)
+    throw InputError(
+        "time.step",
+        fmt::format("is {:.9g} s, in the run to be continued {:.9g} s", case_.time->step, checkpoint.position.nominal),
+        "keep the step of a run in cycles, or start anew");
+  last_checkpoint_ = name;
+  log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
+                         time_text(grid_.time())));
+  if (checkpoint.case_hash != case_hash_)
+    log_->warning(
+        "the case file, its prestress or its tuned outlets have changed since the checkpoint was written; the run goes "
+        "on with the new ones");
+}
+
+void Run::open_outputs() {
+  const bool keep = continued() && folder_has_results_;
+  std::vector<std::string> lumen_faces;
+  for (const auto& face : mesh_.faces)
+    if (mesh_.regions[face.region].kind == mesh::RegionKind::lumen) lumen_faces.push_back(face.name);
+  artifacts::ManifestHead head{.program = request_.program,
+                               .case_file = request_.case_file,
+                               .case_text = input_.text,
+                               .case_hash = case_hash_,
+                               .mesh_hash = mesh_hash_,
+                               .ranks = parallel::size(comm_),
+                               .nodes = mesh_.global_nodes,
+                               .elements = mesh_.global_elements,
+                               .regions = {},
+                               .first_step = grid_.steps_done()};
+  for (const auto& r : input_.mesh.data.regions) head.regions.emplace_back(r.name, r.end_element - r.first_element);
+  parallel::on_root(comm_, [&] {
+    const auto from = keep ? std::optional(state_.step) : std::nullopt;
+    histories_.emplace(folder_, case_, lumen_faces, state_.outlets, from);
+    if (case_.time && case_.time->cycles) cycles_.emplace(folder_, case_, openings(case_, lumen_faces), from);
+    manifest_.emplace(folder_, head, keep);
+    for (const auto& file : artifacts::list_checkpoints(checkpoint_folder()))  // of a future that is computed anew
+      if (artifacts::step_of(file) > grid_.steps_done()) fs::remove(file);
+  });
+  distributed::ResultsOptions options{.directory = folder_};
+  options.length_factor = 1 / config::unit_factor(case_.output.units.length, config::dimension::length);
+  if (keep) options.continue_from = grid_.time();
+  writer_.emplace(mesh_, options);
+}
+
+std::string Run::time_text(double t) const {
+  if (is_static()) return fmt::format("{:.6g} of the load", t);
+  return fmt::format("{:.6g} {}", t / time_unit_, case_.output.units.time);
+}
+
+std::string Run::step_line(const StepReport& report, double dt) const {
+  const double first = report.iterations.empty() ? report.final_norm : report.iterations[0].norm;
+  return fmt::format("step {}/{}  t {}  newton {}  linear {}  norm {:.2e} -> {:.2e}  dt {}  {:.2f} s",
+                     grid_.on_grid() ? grid_.steps_done() : grid_.steps_done() + 1, last_step(),
+                     time_text(grid_.time()), report.iterations.size(), report.linear_iterations(), first,
+                     report.final_norm, time_text(dt), report.timings.total);
+}
+
+StepReport Run::attempt() {
+  const double size = grid_.next_step();
+  return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
+}
+
+void Run::accepted(const StepReport& report, double dt, int wanted_level) {
+  const double start = grid_.time();
+  grid_.accept(wanted_level);
+  if (is_static())
+    ++state_.step;
+  else
+    state_.time = grid_.time();
+  artifacts::StepHistory history{
+      .step = state_.step, .time = grid_.time(), .dt = dt, .evaluated = grid_.time(), .record = {}, .report = report};
+  if (!is_static())
+    history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
+  history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
+  parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); });
+
+  auto& p = progress_;
+  p.newton_iterations += std::ssize(report.iterations);
+  p.linear_iterations += report.linear_iterations();
+  p.timings.assembly += report.timings.assembly;
+  p.timings.set_up += report.timings.set_up;
+  p.timings.linear += report.timings.linear;
+  p.timings.mesh += report.timings.mesh;
+  p.timings.total += report.timings.total;
+  log_->info(step_line(report, dt));
+}
+
+void Run::rejected(const StepReport& report) {
+  ++progress_.rejected_steps;
+  const double size = grid_.next_step();
+  if (!grid_.halve()) give_up(report);
+  log_->warning(fmt::format("step of {} from t = {} rejected: {}; trying {}", time_text(size), time_text(grid_.time()),
+                            report.failure, time_text(grid_.next_step())));
+}
+
+// One that the error is too large for is taken back like one that failed.
+void Run::judge(const StepReport& report, const coupling::State& before, double dt) {
+  const StepError error = step_error(mesh_, before, state_);
+  const double tolerance = case_.time->adaptive->tolerance;
+  const int wanted = wanted_level(*case_.time, grid_.level(), error);
+  if (wanted > grid_.level() && grid_.halve()) {
+    state_ = before;
+    ++progress_.rejected_steps;
+    log_->info(fmt::format("step of {} from t = {} taken back: error {:.2e}, tolerance {:.2e}", time_text(dt),
+                           time_text(grid_.time()), error.relative, tolerance));
+    return;
+  }
+  state_.velocity_reference = error.reference;
+  accepted(report, dt, wanted);
+}
+
+bool Run::take_step() {
+  do {
+    if (parallel::stop_requested(comm_) != 0) return false;
+    const double dt = grid_.next_step();
+    const bool adaptive = case_.time && case_.time->adaptive;
+    const coupling::State before = adaptive ? state_ : coupling::State{};
+    const StepReport report = attempt();
+    if (!report.converged)
+      rejected(report);
+    else if (adaptive)
+      judge(report, before, dt);
+    else
+      accepted(report, dt, 0);
+  } while (!grid_.on_grid());
+  return true;
+}
+
+bool Run::finish_cycle(bool anew) {
+  const auto& settings = *case_.time->cycles;
+  const int cycle = static_cast<int>(grid_.steps_done() / case_.time->steps_per_cycle());
+  CycleChange change =
+      parallel::on_root(comm_, [&] { return anew ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle); });
+  parallel::broadcast(comm_, change);
+  const bool periodic = change.below(settings.tolerance), last = cycle == settings.most;
+  if (periodic || !last)
+    log_->info(describe(change, settings));
+  else
+    log_->warning(describe(change, settings));
+  return periodic;
+}
+
+void Run::write_fields() {
+  if (fields_step_ == grid_.steps_done()) return;
+  fields_->write(*writer_, grid_.steps_done(), grid_.time(), state_);
+  fields_step_ = grid_.steps_done();
+}
+
+void Run::save() {
+  if (checkpoint_state_ == state_.step) return;
+  const fs::path file = artifacts::checkpoint_file(checkpoint_folder(), grid_.steps_done());
+  artifacts::write_checkpoint(file, mesh_, {state_, grid_.position(), case_hash_, mesh_hash_});
+  last_checkpoint_ = file;
+  checkpoint_state_ = state_.step;
+  parallel::on_root(comm_, [&] {
+    auto files = artifacts::list_checkpoints(checkpoint_folder());
+    for (std::size_t k = 0; k + kept_checkpoints < files.size(); ++k) fs::remove(files[k]);
+  });
+}
+
+void Run::record(const std::string& status, const std::string& message) {
+  auto& p = progress_;
+  p.status = status;
+  p.message = message;
+  p.last_step = grid_.steps_done();
+  p.time = grid_.time();
+  p.total_seconds = MPI_Wtime() - started_;
+  p.peak_memory = parallel::global_sum(comm_, artifacts::peak_memory());
+  parallel::on_root(comm_, [&] { manifest_->write(p); });
+}
+
+void Run::give_up(const StepReport& report) {
+  const auto worst = problem_->worst_node();
+  std::string norms = "none";
+  if (!report.iterations.empty()) norms.clear();
+  for (const auto& iteration : report.iterations) norms += fmt::format("{:.3e} ", iteration.norm);
+  save();
+  throw SolverError(
+      fmt::format("the {} did not converge from t = {} (after {}), with steps down to {}.\n"
+                  "  reason: {}\n  residual norms: {}\n"
+                  "  largest unbalanced force: {:.3e} N near ({:.5g}, {:.5g}, {:.5g}) m of the initial mesh\n"
+                  "  last checkpoint: {}\n"
+                  "  try a smaller step, more Newton iterations, or look at the results near that place",
+                  is_static() ? "load step" : "time step", time_text(grid_.time()), plural(grid_.steps_done(), "step"),
+                  time_text(grid_.next_step()), report.failure, norms, worst.force, worst.place[0], worst.place[1],
+                  worst.place[2], last_checkpoint_.string()));
+}
+
+RunOutcome Run::steps() {
+  const std::int64_t end = std::min(last_step(), request_.until.value_or(last_step()));
+  RunOutcome outcome;
+  bool periodic = at_cycle_end() && finish_cycle(false);
+  if (periodic || grid_.steps_done() >= end) {
+    log_->info(periodic
+                   ? std::string("nothing to do: the run is periodic")
+                   : fmt::format("nothing to do: {} of {} are completed", grid_.steps_done(), plural(end, "step")));
+    record("completed", "");
+    return {.signal = 0, .steps = grid_.steps_done()};
+  }
+  const parallel::StopSignals signals;
+  try {
+    if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
+    double saved = MPI_Wtime();
+    bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
+    while (grid_.steps_done() < end && !periodic) {
+      const auto done = grid_.steps_done();
+      if (!take_step()) {
+        outcome.signal = parallel::stop_requested(comm_);
+        break;
+      }
+      if (grid_.steps_done() % case_.output.every == 0) write_fields();
+      const bool overdue = parallel::any(comm_, MPI_Wtime() - saved > longest_without_checkpoint);
+      if (grid_.steps_done() % case_.output.checkpoint_every == 0 || overdue) {
+        save();
+        saved = MPI_Wtime();
+      }
+      if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
+      bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
+    }
+    bar_.reset();
+    if (outcome.signal == 0) write_fields();
+    save();
+  } catch (const SolverError& error) {
+    bar_.reset();
+    record("failed", error.what());
+    throw;
+  }
+  outcome.steps = grid_.steps_done();
+  record(outcome.signal == 0 ? "completed" : "stopped",
+         outcome.signal == 0 ? (periodic ? "periodic" : "") : fmt::format("signal {}", outcome.signal));
+  if (outcome.signal != 0) {
+    const std::string resume = request_.resume.empty()
+                                   ? fmt::format("tunica run {}{} --restart", request_.case_file.string(),
+                                                 request_.directory ? " --output " + request_.directory->string() : "")
+                                   : request_.resume;
+    log_->warning(fmt::format("stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  {}",
+                              sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
+                              resume));
+  } else {
+    log_->info(fmt::format("{} in {:.1f} s ({:.1f} s set-up), {:.0f} MB of memory; results in {}",
+                           plural(grid_.steps_done(), "step"), progress_.total_seconds, progress_.set_up_seconds,
+                           progress_.peak_memory / 1e6, folder_.string()));
+  }
+  return outcome;
+}
+
+}  // namespace
+
+std::uint64_t case_hash(const ReadCase& c) {
+  files::Hash hash;
+  hash.add(c.text.data(), c.text.size());
+  hash.add(c.outlets.data(), c.outlets.size());
+  if (const auto prestress = artifacts::prestress_hash(c.mesh.data); prestress != 0)
+    hash.add(&prestress, sizeof prestress);
+  return hash.value();
+}
+
+RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
+  return Run(c, request, comm, screen).steps();
+}
+
+RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
+  ReadCase c;
+  parallel::on_root(comm, [&] {
+    c.text = config::read_text(request.case_file);
+    auto parsed = case_file::read_case(request.case_file);
+    c.settings = std::move(parsed.value);
+    for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
+    c.mesh = artifacts::load_mesh(c.settings);
+  });
+  parallel::broadcast(comm, c.text);
+  if (parallel::rank(comm) != 0) c.settings = case_file::parse_case(c.text, request.case_file);
+  artifacts::name_faces(c.settings, c.mesh, comm);
+  c.outlets = artifacts::take_tuned_outlets(comm, c.settings);
+  return run_case(c, request, comm, screen);
+}
+
+}  // namespace tunica::stages

@@ -1,0 +1,249 @@
+#include "tunica/drawing/picture.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tunica/base/error.hpp"
+#include "tunica/drawing/picture_data.hpp"
+
+namespace tunica::drawing {
+namespace {
+
+using Colour = std::array<int, 3>;
+
+/// A folder of files that lives as long as a test.
+class Picture : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// The cube [0, 2]^3 as eight hexahedra with pressure = x + `shift` and displacement = (0, 0, 2).
+  std::string write_cube(const std::string& name, double shift = 0.0) const {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkDoubleArray> pressure, displacement;
+    pressure->SetName("pressure");
+    displacement->SetName("displacement [mm]");
+    displacement->SetNumberOfComponents(3);
+    for (int i = 0; i < 27; ++i) {
+      points->InsertNextPoint(i % 3, i / 3 % 3, i / 9);
+      pressure->InsertNextValue(i % 3 + shift);
+      displacement->InsertNextTuple3(0.0, 0.0, 2.0);
+    }
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    for (int c = 0; c < 8; ++c) {
+      const vtkIdType n = c % 2 + 3 * (c / 2 % 2) + 9 * (c / 4);
+      const vtkIdType nodes[8] = {n, n + 1, n + 4, n + 3, n + 9, n + 10, n + 13, n + 12};
+      grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes);
+    }
+    vtkNew<vtkDoubleArray> along;
+    along->SetName("along");
+    along->SetNumberOfComponents(3);
+    for (int c = 0; c < 8; ++c) along->InsertNextTuple3(3.0, 0.0, 0.0);
+    grid->GetCellData()->AddArray(along);
+    grid->GetPointData()->AddArray(pressure);
+    grid->GetPointData()->AddArray(displacement);
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetFileName(file(name).c_str());
+    writer->SetInputData(grid);
+    writer->Write();
+    return file(name);
+  }
+
+  /// Looks at the cube from the front: x to the right, z up.
+  PictureOptions front(const std::string& input) const {
+    PictureOptions options;
+    options.inputs = {input};
+    options.output = file("picture.png");
+    options.array = "pressure";
+    options.view = {{0.0, -1.0, 0.0}};
+    options.width = 400;
+    options.height = 300;
+    return options;
+  }
+
+  /// Colours across the picture at a height given as a fraction from below.
+  std::vector<Colour> row(double height) const {
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file("picture.png").c_str());
+    reader->Update();
+    auto* image = reader->GetOutput();
+    const int* size = image->GetDimensions();
+    std::vector<Colour> colours;
+    for (int x = 0; x < size[0]; ++x) {
+      Colour colour;
+      for (int c = 0; c < 3; ++c)
+        colour[static_cast<std::size_t>(c)] =
+            static_cast<int>(image->GetScalarComponentAsDouble(x, static_cast<int>(height * size[1]), 0, c));
+      colours.push_back(colour);
+    }
+    return colours;
+  }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("tunica_picture_" + std::to_string(getpid()));
+};
+
+bool is_white(const Colour& c) { return c[0] > 250 && c[1] > 250 && c[2] > 250; }
+
+TEST_F(Picture, ColoursTheSurfaceByTheArray) {
+  const auto summary = render(front(write_cube("cube.vtu")));
+  EXPECT_EQ(summary.limits, (std::array<double, 2>{0.0, 2.0}));
+  EXPECT_FALSE(summary.time);
+  const auto colours = row(0.46);
+  ASSERT_EQ(colours.size(), 400U);
+  // 276 pixels high at 8 % border: the cube is 256 wide, centred in the left 344 pixels.
+  EXPECT_TRUE(is_white(colours[30]) && is_white(colours[320]));
+  const auto left = colours[50], middle = colours[172], right = colours[295];
+  EXPECT_GT(left[2], left[1] + 20) << "dark violet at the lowest value";
+  EXPECT_GT(middle[1], middle[0] + 30) << "green between";
+  EXPECT_GT(right[0], right[2] + 60) << "yellow at the highest value";
+}
+
+TEST_F(Picture, LeavesOutTheLargestValuesWhenAsked) {
+  auto options = front(write_cube("cube.vtu"));  // more than a third of the values is 0, less than a third 1
+  options.percentile = 50;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 1.0}));
+  options.percentile = 30;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 0.0}));
+}
+
+TEST_F(Picture, ScalesAndTakesComponentsOrMagnitude) {
+  auto options = front(write_cube("cube.vtu", 1.0));
+  options.scale = 10.0;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{10.0, 30.0}));
+  options.array = "displacement";
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{20.0, 20.0}));
+  options.component = 0;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 0.0}));
+  options.component = 3;
+  EXPECT_THROW(render(options), InputError);
+}
+
+TEST_F(Picture, CutsAwayTheSideThatTheNormalPointsTo) {
+  auto options = front(write_cube("cube.vtu"));
+  options.clip = ClipPlane{{{1.0, 0.0, 0.0}}, {{1.0, 0.0, 0.0}}};
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 1.0}));
+  options.clip->origin = {{-1.0, 0.0, 0.0}};
+  EXPECT_THROW(render(options), InputError) << "nothing is left";
+}
+
+TEST_F(Picture, MovesOnlyWhatHasTheWarpVector) {
+  // Beside an unmoved copy the cube reaches twice as high, so both together are drawn half as wide.
+  auto options = front(write_cube("moving.vtu"));
+  options.warp = "displacement";
+  options.clip = ClipPlane{{{0.0, 0.0, 2.5}}, {{0.0, 0.0, -1.0}}};
+  render(options);
+  options.warp.clear();
+  EXPECT_THROW(render(options), InputError) << "unmoved, the cube lies below the plane";
+}
+
+TEST_F(Picture, DrawsTheWantedStepOfASeries) {
+  write_cube("a.vtu");
+  write_cube("b.vtu", 5.0);
+  std::ofstream(file("series.pvd")) << "<?xml version=\"1.0\"?><VTKFile type=\"Collection\"><Collection>"
+                                       "<DataSet timestep=\"0.2\" file=\"b.vtu\"/>"
+                                       "<DataSet timestep=\"0.1\" part=\"0\" file=\"a.vtu\"/>"
+                                       "<DataSet timestep=\"0.1\" part=\"1\" file=\"b.vtu\"/>"
+                                       "</Collection></VTKFile>";
+  const auto steps = read_series(file("series.pvd"));
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].files, (std::vector{file("a.vtu"), file("b.vtu")}));
+  auto options = front(file("series.pvd"));
+  auto summary = render(options);
+  EXPECT_EQ(summary.time, 0.2);
+  EXPECT_EQ(summary.limits, (std::array<double, 2>{5.0, 7.0}));
+  options.time = 0.12;
+  summary = render(options);
+  EXPECT_EQ(summary.time, 0.1);
+  EXPECT_EQ(summary.limits, (std::array<double, 2>{0.0, 7.0}));
+}
+
+TEST_F(Picture, DrawsLinesAlongVectorsAndShowsAFocus) {
+  auto options = front(write_cube("cube.vtu"));
+  options.array.clear();
+  options.width = 344;  // as wide as the cube's part of the other pictures
+  const auto dark = [&](double height) {
+    const auto colours = row(height);
+    return std::count_if(colours.begin(), colours.end(), [](const Colour& c) { return c[0] + c[1] + c[2] < 300; });
+  };
+  render(options);
+  EXPECT_EQ(dark(0.247), 0);
+  options.lines = "along";
+  options.line_length = 0.8;
+  render(options);
+  // The lines lie along x through the middles of the cells, half a unit (64 pixels) below the middle at 0.46.
+  EXPECT_GT(dark(0.244) + dark(0.247) + dark(0.25), 100);
+  EXPECT_EQ(dark(0.46), 0);
+  options.lines = "displacement";
+  EXPECT_THROW(render(options), InputError) << "it is of the points";
+  options.lines.clear();
+  options.focus = Focus{{{1.0, 0.0, 1.0}}, 0.5};
+  render(options);
+  EXPECT_FALSE(is_white(row(0.46)[40])) << "half the cube fills the picture";
+  options.focus->radius = 0;
+  EXPECT_THROW(render(options), InputError);
+}
+
+TEST_F(Picture, NamesTheArraysThatExist) {
+  auto options = front(write_cube("cube.vtu"));
+  options.array = "velocity";
+  try {
+    render(options);
+    FAIL() << "an unknown array was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("displacement [mm], pressure"), std::string::npos) << error.what();
+  }
+  options.array = "pressure";
+  options.warp = "velocity";
+  EXPECT_THROW(render(options), InputError);
+}
+
+TEST_F(Picture, RefusesImpossibleOptions) {
+  const auto input = write_cube("cube.vtu");
+  auto options = front(input);
+  options.inputs = {file("missing.vtu")};
+  EXPECT_THROW(render(options), InputError);
+  options = front(input);
+  options.output = file("picture.jpg");
+  options.up = options.view;
+  options.width = 3;
+  try {
+    render(options);
+    FAIL() << "impossible options were accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 3U) << error.what();
+  }
+  options = front(input);
+  options.output = file("no/such/folder/picture.png");
+  EXPECT_THROW(render(options), InputError);
+}
+
+TEST_F(Picture, SaysThatADisplayIsMissing) {
+  const std::string display = std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "";
+  unsetenv("DISPLAY");
+  EXPECT_THROW(render(front(write_cube("cube.vtu"))), SolverError);
+  setenv("DISPLAY", display.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace tunica::drawing

@@ -1,0 +1,105 @@
+#include "tunica/geometry/openings.hpp"
+
+#include <fstream>
+
+#include "small_surfaces.hpp"
+
+namespace tunica::geometry {
+namespace {
+
+using namespace test;
+
+const TriangleSurface lumen = tube(5e-3, 20e-3, 24, 16), wall = tube(6e-3, 20e-3, 30, 16);
+
+/// Moves the points of the upper rim by `height` of their place.
+template <class Height>
+TriangleSurface with_rim(TriangleSurface surface, const Height& height) {
+  for (auto& p : surface.points)
+    if (p[2] > 20e-3 - 1e-9) p[2] += height(p);
+  return surface;
+}
+
+TEST(Openings, FoundInPairsWithPlanes) {
+  const auto openings = find_openings(lumen, &wall, {{"top", {{0, 1e-3, 20e-3}}}, {"bottom", {{0, 0, -1e-3}}}});
+  ASSERT_EQ(openings.size(), 2u);
+  EXPECT_EQ(openings[0].name, "top");
+  EXPECT_NEAR(openings[0].normal[2], 1, 1e-12);
+  EXPECT_NEAR(openings[1].normal[2], -1, 1e-12);
+  EXPECT_EQ(openings[0].lumen.size(), 24u);
+  EXPECT_EQ(openings[0].wall.size(), 30u);
+  EXPECT_NEAR(openings[0].area, 12 * 25e-6 * std::sin(2 * M_PI / 24), 1e-12);
+}
+
+TEST(Openings, NamedByAreaWithoutNames) {
+  auto cone = lumen;
+  for (auto& p : cone.points)
+    for (int d = 0; d < 2; ++d) p[d] *= 1 + 10 * p[2];
+  const auto openings = find_openings(cone, nullptr, {});
+  EXPECT_EQ(openings[0].name, "inlet");
+  EXPECT_GT(openings[0].centre[2], 0.01);
+  EXPECT_EQ(openings[1].name, "outlet_1");
+}
+
+TEST(Openings, RefusesWhatDoesNotMatch) {
+  const auto why = [](const TriangleSurface& inner, const TriangleSurface& outer,
+                      const std::vector<NamedPlace>& names = {}) {
+    return message_of<InputError>([&] { find_openings(inner, &outer, names); });
+  };
+  auto far = wall;
+  for (auto& p : far.points) p[2] += p[2] > 0.01 ? 10e-3 : 0;
+  EXPECT_TRUE(says(why(lumen, far), "has no lumen rim inside it"));
+  EXPECT_TRUE(says(why(lumen, far), "has no rim of the outer surface around it"));
+  auto twice = wall;
+  append(twice, tube(6.5e-3, 20e-3, 30, 16));
+  EXPECT_TRUE(says(why(lumen, twice), "has no lumen rim inside it"));
+  auto shifted = wall;
+  for (auto& p : shifted.points) p[0] += 1.5e-3;
+  EXPECT_TRUE(says(why(lumen, shifted), "reaches beyond the rim"));
+  const auto ragged = with_rim(lumen, [](const Point& p) { return 1.6e-3 * std::cos(2 * std::atan2(p[1], p[0])); });
+  EXPECT_TRUE(says(why(ragged, wall), "leave their common plane by 1.6"));
+  EXPECT_TRUE(says(why(lumen, wall, {{"top", {{0, 0, 20e-3}}}}), "has no name"));
+  EXPECT_TRUE(says(why(lumen, wall, {{"side", {{20e-3, 0, 10e-3}}}}), "there is no opening of its own"));
+}
+
+TEST(Openings, RefusesAClosedSurface) {
+  const auto ball = contour({{2e-3, 2e-3, 2e-3}}, 0.3e-3, [](const Point& x) { return norm(x) - 1e-3; });
+  EXPECT_TRUE(says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings"));
+}
+
+TEST(Openings, RimsAreFlattenedWithoutFolds) {
+  auto surface = tube(5e-3, 20e-3, 24, 64);  // rows closer to each other than the rim moves
+  for (auto& p : surface.points) p[2] += 0.5e-3 * std::cos(2 * std::atan2(p[1], p[0])) * p[2] / 20e-3;
+  const auto openings = find_openings(surface, nullptr, {});
+  const auto before = surface;
+  flatten_rims(surface, openings, &Opening::lumen);
+  for (const auto& opening : openings)
+    for (const auto p : opening.lumen) EXPECT_NEAR(dot(surface.points[p] - opening.centre, opening.normal), 0, 1e-15);
+  for (const auto& t : surface.triangles) EXPECT_GT(dot(area_vector(surface, t), area_vector(before, t)), 0);
+  for (std::size_t p = 0; p < surface.points.size(); ++p) {
+    EXPECT_LT(norm(surface.points[p] - before.points[p]), 0.51e-3);
+    if (before.points[p][2] < 15e-3) {
+      EXPECT_EQ(norm(surface.points[p] - before.points[p]), 0);
+    }
+  }
+}
+
+TEST(OpeningNames, ReadFromTable) {
+  const Folder folder;
+  const auto read = [&](const std::string& text) {
+    std::ofstream(folder.path / "a.csv") << text;
+    return read_opening_names(folder.path / "a.csv", 1e-3);
+  };
+  const auto names = read("# comment\nname,area,centre_x,centre_y,centre_z\na,1,1,2,3\nb,2,4,5,-6\r\n");
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_EQ(names[1].name, "b");
+  EXPECT_NEAR(names[1].place[2], -6e-3, 1e-15);
+  const auto why = [&](const std::string& text) { return message_of<InputError>([&] { read(text); }); };
+  EXPECT_TRUE(says(why("name,centre_x,centre_y\na,1,2\n"), "no column centre_z"));
+  EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,x\n"), "'x' is no number"));
+  EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,3\na,1,2,3\n"), "there already"));
+  EXPECT_TRUE(says(why("# nothing\n"), "names no opening"));
+  EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path / "none.csv", 1); }), "cannot be read"));
+}
+
+}  // namespace
+}  // namespace tunica::geometry

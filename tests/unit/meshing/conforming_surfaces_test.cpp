@@ -1,0 +1,38 @@
+#include "tunica/meshing/conforming_surfaces.hpp"
+
+#include "tunica/geometry/self_intersections.hpp"
+#include "unit/geometry/small_surfaces.hpp"
+
+namespace tunica::meshing {
+namespace {
+
+using namespace geometry::test;
+using geometry::crossing_triangles;
+
+TEST(RemeshTogether, RefinesUntilSurfacesAreNearAndDoNotCross) {
+  // A gap of 0.2 mm, edges of 3 mm: the coarse meshes would cross.
+  std::vector<Sheet> sheets;
+  for (const auto& surface : {tube(5e-3, 10e-3, 90, 30), tube(5.2e-3, 10e-3, 90, 30)})
+    sheets.push_back({{geometry::TriangleTree(surface), {}, std::vector<double>(surface.points.size(), 4e-3)}, {}, {}});
+  std::vector<std::string> lines;
+  remesh_together(sheets, {}, 0.3, [&](const std::string& line) { lines.push_back(line); });
+  EXPECT_GT(lines.size(), 1u);
+  geometry::TriangleSurface all = sheets[0].mesh.surface;
+  geometry::append(all, sheets[1].mesh.surface);
+  EXPECT_TRUE(crossing_triangles(all).empty());
+  for (const auto& sheet : sheets) EXPECT_LE(sheet.distance, 0.5e-3);
+}
+
+TEST(RemeshTogether, SaysWhereItFails) {
+  std::vector<Sheet> sheets;
+  const auto surface = tube(5e-3, 10e-3, 90, 30);
+  for (int i = 0; i < 2; ++i)  // twice the same place
+    sheets.push_back({{geometry::TriangleTree(surface), {}, std::vector<double>(surface.points.size(), 2e-3)}, {}, {}});
+  Accuracy accuracy;
+  accuracy.rounds = 1;
+  const auto text = message_of<SolverError>([&] { remesh_together(sheets, accuracy, 0.3, [](const std::string&) {}); });
+  EXPECT_TRUE(says(text, "pairs of triangles cross, near (")) << text;
+}
+
+}  // namespace
+}  // namespace tunica::meshing
