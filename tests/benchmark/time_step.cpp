@@ -25,6 +25,7 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/message.hpp"
 #include "tunica/parallel/petsc.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace {
 

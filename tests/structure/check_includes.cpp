@@ -1,5 +1,6 @@
 // Holds the includes of a source tree against the two tables of ARCHITECTURE.md: which folder may include which, and
-// which folders may use MPI, PETSc, VTK and CGAL. Prints every breach; also warns about overlong files.
+// which folders may use MPI, PETSc, VTK and CGAL; no stage may include another. Prints every breach; also warns about
+// overlong files.
 //
 // Usage: check_includes ARCHITECTURE.md ROOT, where ROOT holds src/tunica and app.
 #include <algorithm>
@@ -126,6 +127,7 @@ class Checker {
     const auto parts = split(header, '/');
     if (parts.front() == "tunica" && parts.size() >= 3) {
       if (!rules_.folders.at(folder).contains(parts[1])) report(where + folder + " may not include " + parts[1]);
+      check_stages(where, path, folder, parts);
       return;
     }
     for (const auto& library : rules_.libraries) {
@@ -142,6 +144,14 @@ class Checker {
     }
     // The files of app/ are no library: they include each other by file name.
     if (quoted && folder != "app") report(where + "write \"tunica/<folder>/<file>\" instead of \"" + header + '"');
+  }
+
+  /// stages/a/ may include stages/a/ and the files in stages/ itself, these none of the stages.
+  void check_stages(const std::string& where, const fs::path& path, const std::string& folder,
+                    const std::vector<std::string>& parts) {
+    if (folder != "stages" || parts[1] != "stages" || parts.size() == 3) return;
+    const std::string stage = path.parent_path().filename().string();
+    if (stage != parts[2]) report(where + "the stage " + parts[2] + " is not for others to include");
   }
 
   void report(const std::string& message) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tunica/config/schema.hpp"
-#include "tunica/frames/tears.hpp"
+#include "tunica/frames/settings.hpp"
 
 namespace tunica::analysis {
 

@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/frames/laplace.hpp"
+#include "tunica/frames/tears.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"

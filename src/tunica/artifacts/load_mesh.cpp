@@ -14,6 +14,7 @@
 #include "tunica/mesh_io/gmsh.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::artifacts {
 

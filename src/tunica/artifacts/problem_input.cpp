@@ -1,6 +1,7 @@
 #include "tunica/artifacts/problem_input.hpp"
 
 #include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::artifacts {
 

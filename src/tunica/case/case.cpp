@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "tunica/bc/waveform.hpp"
+#include "tunica/case/compared_law.hpp"
+#include "tunica/case/mesh_settings.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::case_file {
 

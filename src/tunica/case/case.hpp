@@ -13,10 +13,9 @@
 #include "tunica/ale/parameters.hpp"
 #include "tunica/analysis/description.hpp"
 #include "tunica/analysis/settings.hpp"
+#include "tunica/base/boxed.hpp"
 #include "tunica/bc/conditions.hpp"
-#include "tunica/case/chain_settings.hpp"
 #include "tunica/case/fibre_settings.hpp"
-#include "tunica/case/mesh_settings.hpp"
 #include "tunica/case/prestress_settings.hpp"
 #include "tunica/case/report_settings.hpp"
 #include "tunica/case/tuning_settings.hpp"
@@ -26,9 +25,15 @@
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
-#include "tunica/wall/parameters.hpp"
+
+namespace tunica::wall {
+struct Parameters;  // wall/parameters.hpp
+}
 
 namespace tunica::case_file {
+
+struct MeshCase;     // mesh_settings.hpp
+struct ComparedLaw;  // compared_law.hpp
 
 // --- what is computed ---------------------------------------------------------------------------------------------
 
@@ -105,11 +110,11 @@ struct OutputSettings {
 struct Case {
   std::string title;
   Analysis analysis;
-  std::optional<MeshCase> mesh;  ///< what is meshed first, in place of `meshes`
+  Boxed<MeshCase> mesh;  ///< what is meshed first, in place of `meshes`
   MeshSettings meshes;
   std::optional<FibreSettings> fibres;  ///< directions that are made first
   std::optional<fluid::Parameters> fluid;
-  std::optional<wall::Parameters> wall;
+  Boxed<wall::Parameters> wall;
   std::optional<ale::Parameters> mesh_motion;  ///< for fluid-structure interaction; always present there
   /// Face name, condition, as in the file; then the provisional outlets of the section `outlets`, which a run replaces.
   std::vector<std::pair<std::string, bc::Condition>> boundary;
@@ -119,7 +124,7 @@ struct Case {
   std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
   std::optional<analysis::PostSettings> post;  ///< what `tunica post` shall make of the results
   std::optional<ReportSettings> report;        ///< the page that is written last
-  std::vector<std::pair<std::string, ComparedLaw>> compare;  ///< laws that `tunica compare` puts in the wall
+  std::vector<std::pair<std::string, Boxed<ComparedLaw>>> compare;  ///< laws that `tunica compare` puts in the wall
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "tunica/config/schema.hpp"
-#include "tunica/frames/frames.hpp"
-#include "tunica/frames/tears.hpp"
+#include "tunica/frames/settings.hpp"
 
 namespace tunica::case_file {
 

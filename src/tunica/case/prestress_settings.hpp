@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "tunica/config/schema.hpp"
-#include "tunica/coupling/prestress.hpp"
+#include "tunica/coupling/settings.hpp"
 
 namespace tunica::case_file {
 

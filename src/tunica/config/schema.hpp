@@ -41,6 +41,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "tunica/base/boxed.hpp"
 #include "tunica/config/description.hpp"
 
 namespace tunica::config {
@@ -57,6 +58,11 @@ struct Unwrap<std::optional<M>> {
   using Type = M;
   static constexpr bool optional = true;
 };
+template <class M>
+struct Unwrap<Boxed<M>> {
+  using Type = M;
+  static constexpr bool optional = true;
+};
 
 template <class M>
 concept Resizable = requires(M m, double x) {
@@ -69,6 +75,10 @@ concept Keyed = requires(M m, std::string k) {
 
 template <class M>
 M& contained(std::optional<M>& member) {
+  return member.emplace();
+}
+template <class M>
+M& contained(Boxed<M>& member) {
   return member.emplace();
 }
 template <class M>
@@ -232,7 +242,7 @@ class Schema {
 
   // --- nested -----------------------------------------------------------------------------------------------------
 
-  /// Member: U, or std::optional<U>.
+  /// Member: U, std::optional<U> or Boxed<U>.
   template <std::invocable<T&> A, class U>
   Schema& section(std::string key, A access, const Schema<U>& nested, std::string help) {
     Field& f = field(std::move(key), Kind::section, std::move(help));
@@ -245,7 +255,8 @@ class Schema {
     };
     return *this;
   }
-  /// Member: std::map<std::string, U>, or std::vector<std::pair<std::string, U>> to keep the order of the file.
+  /// Member: std::map<std::string, U>, or std::vector<std::pair<std::string, U or Boxed<U>>> to keep the order of the
+  /// file.
   template <std::invocable<T&> A, class U>
   Schema& map(std::string key, A access, const Schema<U>& nested, std::string help) {
     Field& f = field(std::move(key), Kind::map, std::move(help));
@@ -257,7 +268,7 @@ class Schema {
       if constexpr (detail::Keyed<Member<A>>)
         value = &member[name];
       else
-        value = &member.emplace_back(name, U{}).second;
+        value = &detail::contained(member.emplace_back(name, U{}).second);
       return value;
     };
     return *this;

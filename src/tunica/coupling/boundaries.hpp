@@ -10,7 +10,7 @@
 #include "tunica/assembly/block_matrix.hpp"
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/bc/conditions.hpp"
-#include "tunica/coupling/element_loops.hpp"
+#include "tunica/coupling/loop_views.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/wall/surface.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tunica/assembly/batch_access.inl.hpp"
-#include "tunica/coupling/element_loops.hpp"
+#include "tunica/coupling/loop_views.hpp"
 
 namespace tunica::coupling {
 

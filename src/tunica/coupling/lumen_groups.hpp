@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tunica/assembly/element_batches.hpp"
-#include "tunica/coupling/element_loops.hpp"
+#include "tunica/coupling/loop_views.hpp"
 
 namespace tunica::coupling {
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/wall_model.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/fluid/energy.hpp"
 #include "tunica/parallel/agree.hpp"

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
 
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/element_loops.hpp"
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/wall_model.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::coupling {
@@ -47,6 +50,13 @@ int StepReport::linear_iterations() const {
   return sum;
 }
 
+struct Problem::Wall {
+  WallModel model;
+  std::vector<WallModel::Group> groups;
+
+  Wall(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters) : model(mesh, parameters) {}
+};
+
 Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& input)
     : mesh_(mesh),
       input_(input),
@@ -65,13 +75,13 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
                      "give both a wall mesh and a `wall` section, or neither");
   if (wall && input.mesh_displacement)
     throw InputError("mesh_displacement", "the lumen mesh follows the wall", "prescribe it only without a wall");
-  if (wall) wall_.emplace(mesh, *input.wall);
+  if (wall) wall_ = std::make_unique<Wall>(mesh, *input.wall);
   const int width = static_cast<int>(isa_);
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& region = mesh.regions[r];
     if (region.kind == mesh::RegionKind::lumen) continue;
-    auto groups = wall_->groups(mesh, r, pattern_, width);
-    std::move(groups.begin(), groups.end(), std::back_inserter(wall_groups_));
+    auto groups = wall_->model.groups(mesh, r, pattern_, width);
+    std::move(groups.begin(), groups.end(), std::back_inserter(wall_->groups));
     for (const auto& element : region.elements)
       for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
   }
@@ -101,7 +111,7 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
 // thousand times the precision, counts as nothing.
 std::vector<double> Problem::negligible_forces() const {
   if (!wall_) return {};
-  const double mu = wall_->shear_modulus_at_rest();
+  const double mu = wall_->model.shear_modulus_at_rest();
   std::vector<double> forces(at(mesh_.nodes()), 0.0);
   for (const auto& face : mesh_.faces) {
     if (mesh_.regions[face.region].kind != mesh::RegionKind::wall) continue;
@@ -114,6 +124,18 @@ std::vector<double> Problem::negligible_forces() const {
   }
   forces.resize(at(mesh_.owned_nodes));
   return forces;
+}
+
+Problem::~Problem() = default;
+
+const WallModel& Problem::wall_model() const {
+  assert(wall_);
+  return wall_->model;
+}
+
+void Problem::set_prestress(WallPrestress prestress) {
+  assert(wall_);
+  wall_->model.set_prestress(std::move(prestress), wall_->groups);
 }
 
 State Problem::initial_state() const {
@@ -209,6 +231,7 @@ void Problem::add_lumen(const Instant& instant, std::span<double> residual, floa
 }
 
 void Problem::add_wall(const Instant& instant, std::span<double> residual, float* blocks) const {
+  if (!wall_) return;
   const ElementLoops loops = element_loops(isa_);
   // The constraint rows are scaled so that their coupling to the velocity is that of the continuity equation.
   const wall::Coefficients c =
@@ -216,8 +239,8 @@ void Problem::add_wall(const Instant& instant, std::span<double> residual, float
           ? wall::Coefficients{instant.scheme->acceleration_per_unknown(), instant.scheme->displacement_per_unknown(),
                                instant.scheme->velocity_per_unknown() / instant.scheme->displacement_per_unknown()}
           : wall::Coefficients{};
-  for (const auto& group : wall_groups_)
-    loops.wall.assemble(group.view(), fields(), wall_->element_settings(), c, {residual.data(), blocks});
+  for (const auto& group : wall_->groups)
+    loops.wall.assemble(group.view(), fields(), wall_->model.element_settings(), c, {residual.data(), blocks});
 }
 
 void Problem::assemble(const State& next, const Instant& instant, bool with_tangent) {
@@ -286,7 +309,7 @@ void Problem::update_present_modulus(const State& state) {
   const Stopwatch watch(timings_.assembly);
   FieldsView view = fields();
   view.displacement = state.displacement.data();
-  wall_->update_present_modulus(wall_groups_, view, isa_);
+  wall_->model.update_present_modulus(wall_->groups, view, isa_);
 }
 
 Problem::Targets Problem::start(State& next, const Instant& instant, double& norm) {

@@ -1,6 +1,7 @@
 // One time step of flow, wall and mesh motion as a monolithic system (docs/theory.md, section 4).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,19 +10,26 @@
 #include "tunica/ale/parameters.hpp"
 #include "tunica/assembly/linear_solver.hpp"
 #include "tunica/assembly/time_scheme.hpp"
+#include "tunica/base/boxed.hpp"
 #include "tunica/coupling/boundaries.hpp"
 #include "tunica/coupling/lumen_groups.hpp"
 #include "tunica/coupling/mesh_motion.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/state.hpp"
-#include "tunica/coupling/wall_model.hpp"
+
+namespace tunica::wall {
+struct Parameters;  // wall/parameters.hpp
+}
 
 namespace tunica::coupling {
+
+class WallModel;       // wall_model.hpp
+struct WallPrestress;  // wall_prestress.hpp
 
 /// What is to be solved; lumen and wall are each present or not, as the mesh is.
 struct ProblemInput {
   std::optional<fluid::Parameters> fluid;
-  std::optional<wall::Parameters> wall;
+  Boxed<wall::Parameters> wall;
   ale::Parameters mesh_motion;
   BoundaryInput boundary;
   /// Prescribed displacement [m] of the lumen mesh, for flow without a wall. The start state must hold the displacement
@@ -59,6 +67,7 @@ class Problem {
  public:
   /// Throws InputError when mesh, physics and conditions do not fit. Collective.
   Problem(const distributed::DistributedMesh& mesh, const ProblemInput& input);
+  ~Problem();
 
   /// At rest, undeformed.
   State initial_state() const;
@@ -75,7 +84,7 @@ class Problem {
   void set_nodal_forces(std::span<const double> forces);
 
   /// Prestress of the wall in every evaluation from now on. Throws as WallModel::set_prestress.
-  void set_prestress(WallPrestress prestress) { wall_.value().set_prestress(std::move(prestress), wall_groups_); }
+  void set_prestress(WallPrestress prestress);
 
   /// Residual of the lumen elements alone and of the wall elements alone for the step that `advance` last accepted:
   /// their sum vanishes at the interface. [local node][4], at t_{n+alpha_f}. Collective.
@@ -95,7 +104,7 @@ class Problem {
   FieldsView fields() const;
   const Boundaries& boundaries() const { return boundaries_; }
   /// Only with a wall.
-  const WallModel& wall_model() const { return wall_.value(); }
+  const WallModel& wall_model() const;
   const distributed::DistributedMesh& mesh() const { return mesh_; }
   const ProblemInput& input() const { return input_; }
   bool moving() const { return mesh_motion_.has_value() || input_.mesh_displacement; }
@@ -139,8 +148,8 @@ class Problem {
   assembly::BlockPattern pattern_;
   Boundaries boundaries_;
   std::vector<LumenGroup> lumen_groups_;
-  std::optional<WallModel> wall_;
-  std::vector<WallModel::Group> wall_groups_;
+  struct Wall;
+  std::unique_ptr<Wall> wall_;      ///< null without one
   std::vector<double> negligible_;  ///< forces whose norm is noise, [owned node][4]; empty without a wall
   std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
   assembly::BlockMatrix matrix_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tunica/config/schema.hpp"
 
@@ -121,6 +123,26 @@ struct TimeSettings {
   std::int64_t most_steps() const { return cycles ? cycles->most * steps_per_cycle() : steps; }
 
   static config::Schema<TimeSettings> schema();
+};
+
+/// Of the fixed point (prestress.hpp).
+struct PrestressSettings {
+  enum class Method {
+    stress,  ///< additive, (5.1)
+    stretch  ///< multiplicative, (5.2)
+  };
+  /// What the stress of a loaded wall becomes in the imaged shape, (5.4); additive method only.
+  enum class Update { first_piola, second_piola };
+
+  Method method = Method::stress;
+  Update update = Update::first_piola;
+  std::vector<std::string> exclude{};  ///< wall regions that stay free of prestress
+  double tolerance = 1e-6;             ///< largest displacement under the load [m]
+  int max_iterations = 60;
+  double relaxation = 1.0;  ///< share of an update that is taken
+  int load_steps = 1;       ///< in which the load grows, with an update after each; doubled where that fails
+
+  static config::Schema<PrestressSettings> schema();
 };
 
 }  // namespace tunica::coupling

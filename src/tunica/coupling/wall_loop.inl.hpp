@@ -1,6 +1,7 @@
 // The loop over wall elements; included only by the translation units of one instruction set each.
 #pragma once
 
+#include "tunica/coupling/element_loops.hpp"
 #include "tunica/coupling/gather.inl.hpp"
 #include "tunica/wall/prestress.hpp"
 

@@ -6,17 +6,11 @@
 
 #include "tunica/assembly/element_batches.hpp"
 #include "tunica/coupling/element_loops.hpp"
+#include "tunica/coupling/wall_prestress.hpp"
 #include "tunica/wall/blended_law.hpp"
 #include "tunica/wall/parameters.hpp"
-#include "tunica/wall/prestress.hpp"
 
 namespace tunica::coupling {
-
-/// Prestress of all local wall elements, ghosts included.
-struct WallPrestress {
-  wall::PrestressKind kind = wall::PrestressKind::none;
-  std::vector<std::vector<double>> values{};  ///< [region of the mesh][element][component], global axes
-};
 
 class WallModel {
  public:

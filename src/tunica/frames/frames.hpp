@@ -15,11 +15,6 @@ struct FrameFaces {
   std::vector<std::string> outlets;  ///< one phi for each opening, unit flux on average
 };
 
-struct FrameSettings {
-  NormalMethod normal = FilteredDyads{};
-  Domain domain = Domain::lumen_and_wall;  ///< where the Laplace problem is solved
-};
-
 /// [owned element of the graph]. Orthonormal and right-handed; families of fibres are symmetric about e1 and e2, so
 /// that the sign of e1 and e3 has no meaning.
 struct Frames {

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "tunica/distributed/distributed_mesh.hpp"
+#include "tunica/frames/settings.hpp"
 
 namespace tunica::frames {
-
-enum class Domain { lumen, wall, lumen_and_wall };
 
 /// What holds on the boundary; no flux elsewhere. Arrays are [local node], of which those of owned nodes count.
 struct LaplaceConditions {

@@ -9,11 +9,6 @@
 
 namespace tunica::frames {
 
-/// Wall regions along the two lumens.
-struct LumenWalls {
-  std::vector<std::string> true_lumen, false_lumen;
-};
-
 /// The harmonic function in the lumen that is 1 on the walls of the true and -1 on those of the false lumen, with no
 /// flux through the flap and elsewhere. Throws InputError when a region does not exist or no interface node touches
 /// either kind of wall. Collective.

@@ -1,29 +1,13 @@
 // The direction across the wall, e3, in every element: docs/theory.md, section 6.
 #pragma once
 
-#include <numbers>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "tunica/frames/element_graph.hpp"
+#include "tunica/frames/settings.hpp"
 
 namespace tunica::frames {
-
-/// Directions without sign: dyads of the interface normals are spread through the wall by a filter, and the principal
-/// direction of what arrives is taken, eq. (6.3). With a length of about the thickness of the wall or more, the broad
-/// sides of a flap prevail over the rims of its tears, however fine the mesh.
-struct FilteredDyads {
-  double length = 2e-3;  ///< over which the influence of the interface decays [m], > 0
-};
-
-/// Vectors: a neighbour counts when its angle to the element's own vector is within the tolerance, eq. (6.1), (6.2).
-struct ConditionalMean {
-  double tolerance = 120 * std::numbers::pi / 180;  ///< rad, in (0, pi]
-  int cycles = 5;
-};
-
-using NormalMethod = std::variant<FilteredDyads, ConditionalMean>;
 
 struct WallNormals {
   std::vector<double> direction;  ///< [element of the graph, ghosts included][3], unit, from the lumen into the wall

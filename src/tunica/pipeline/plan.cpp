@@ -9,10 +9,13 @@
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/case/face_patterns.hpp"
+#include "tunica/case/mesh_settings.hpp"
 #include "tunica/config/nearest.hpp"
+#include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/meshing/wall_regions.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::pipeline {
 

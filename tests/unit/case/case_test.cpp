@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "tunica/wall/parameters.hpp"
+
 namespace tunica::case_file {
 namespace {
 

@@ -8,7 +8,9 @@
 #include "small_cases.hpp"
 #include "tunica/assembly/block_matrix.hpp"
 #include "tunica/coupling/lumen_groups.hpp"
+#include "tunica/coupling/wall_model.hpp"
 #include "tunica/fluid/rbvms_shape.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::coupling {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "small_cases.hpp"
 #include "tunica/assembly/linear_solver.hpp"
+#include "tunica/coupling/wall_model.hpp"
 
 namespace tunica::coupling {
 namespace {

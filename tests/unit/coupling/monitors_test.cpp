@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tunica/mesh/generate.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::coupling {
 namespace {

@@ -9,6 +9,7 @@
 #include "tunica/coupling/problem.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/wall/parameters.hpp"
 #include "unit/assembly/numbers.hpp"
 
 namespace tunica::test {

@@ -13,6 +13,7 @@
 #include "tunica/coupling/problem.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::verification {
 namespace {

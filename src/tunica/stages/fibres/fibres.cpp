@@ -10,6 +10,7 @@
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/files/series_file.hpp"
+#include "tunica/frames/tears.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"

@@ -15,6 +15,8 @@
 #include "tunica/bc/check.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/prestress.hpp"
+#include "tunica/coupling/wall_model.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -23,6 +25,7 @@
 #include "tunica/parallel/gather.hpp"
 #include "tunica/parallel/progress.hpp"
 #include "tunica/stages/prestress/steady_flow.hpp"
+#include "tunica/wall/parameters.hpp"
 #include "tunica/wall/surface.hpp"
 
 namespace tunica::stages {

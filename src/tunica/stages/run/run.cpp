@@ -19,12 +19,14 @@
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/monitors.hpp"
+#include "tunica/coupling/wall_model.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
 #include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/adaptive_steps.hpp"
 #include "tunica/stages/run/cycles.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
 

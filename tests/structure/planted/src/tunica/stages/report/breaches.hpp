@@ -1,0 +1,5 @@
+// Planted for the test of the include check; never compiled.
+#pragma once
+
+#include "tunica/stages/report/report.hpp"
+#include "tunica/stages/run/run.hpp"
