@@ -25,20 +25,20 @@ bool in_tube(const Point& p, const Point& from, const Vec3<double>& axis, double
   return along > 0 && along < length && norm(p - from - along * axis) < radius;
 }
 
-/// A trunk along z from -14 to 14 mm, radius 4.2 mm, and a branch of 3.5 mm that leaves it at 50 degrees from its axis.
+/// A trunk along z from -18 to 20 mm, radius 3.5 mm, and a long branch of 3 mm that leaves it at 50 degrees from its axis.
 const Vec3<double> branch_axis{{std::sin(50 * M_PI / 180), 0, std::cos(50 * M_PI / 180)}};
 int branched(const Point& p) {
-  return in_tube(p, {{0, 0, -14 * mm}}, {{0, 0, 1}}, 28 * mm, 4.2 * mm) ||
-         in_tube(p, {{0, 0, -4 * mm}}, branch_axis, 20 * mm, 3.5 * mm);
+  return in_tube(p, {{0, 0, -18 * mm}}, {{0, 0, 1}}, 38 * mm, 3.5 * mm) ||
+         in_tube(p, {{0, 0, -6 * mm}}, branch_axis, 28 * mm, 3 * mm);
 }
 
 TEST(VesselEnds, OfATrunkWithABranch) {
-  const Segmented vessel(image_of(branched, {54, 20, 52}, straight));
+  const Segmented vessel(image_of(branched, {74, 20, 64}, straight));
   const auto ends = find_ends(vessel.mask, vessel.field);
   ASSERT_EQ(ends.size(), 3U);
-  const VesselEnd expected[] = {{{{0, 0, -14 * mm}}, {{0, 0, -1}}, 4.2 * mm},
-                                {{{0, 0, 14 * mm}}, {{0, 0, 1}}, 4.2 * mm},
-                                {Point{{0, 0, -4 * mm}} + 20 * mm * branch_axis, branch_axis, 3.5 * mm}};
+  const VesselEnd expected[] = {{{{0, 0, -18 * mm}}, {{0, 0, -1}}, 3.5 * mm},
+                                {{{0, 0, 20 * mm}}, {{0, 0, 1}}, 3.5 * mm},
+                                {Point{{0, 0, -6 * mm}} + 28 * mm * branch_axis, branch_axis, 3 * mm}};
   for (const auto& wanted : expected) {
     const auto found = std::min_element(ends.begin(), ends.end(), [&](const auto& a, const auto& b) {
       return norm(a.centre - wanted.centre) < norm(b.centre - wanted.centre);
