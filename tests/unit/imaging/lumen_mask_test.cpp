@@ -96,6 +96,17 @@ TEST(LumenMask, ContactsHaveTheAreaOfThePlaneNotOfTheStairs) {
   }
 }
 
+TEST(LumenMask, ABentContactCountsAsSeenFromStraightAhead) {
+  const auto label = [](const Point& p) {
+    if (!in_box(p, 9, 5, 4)) return 0;
+    return p[0] > std::abs(p[1]) - 2 * mm ? 1 : 2;
+  };
+  const auto image = image_of(label, {60, 40, 30}, {{{{0.4 * mm, 0, 0}}, {{0, 0.4 * mm, 0}}, {{0, 0, 0.4 * mm}}}});
+  const auto contacts = find_contacts(lumen_mask(image, {1, 2}, 2, silent), 1e-6);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_NEAR(contacts[0].area * 1e6, 24 * 0.4 * 20 * 0.4, 1e-9);  // to and fro along y cancels
+}
+
 TEST(LumenMask, ContactsAreSortedAndSpecksLeftOut) {
   // Two slabs with bridges of 4, 2 and 0.5 mm radius between them.
   constexpr double places[] = {-9, 1, 9}, radii[] = {2, 4, 0.5};
