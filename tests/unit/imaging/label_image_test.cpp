@@ -12,6 +12,7 @@
 
 #include "small_images.hpp"
 #include "temporary_folder.hpp"
+#include "tunica/base/error.hpp"
 #include "tunica/imaging/image_formats.hpp"
 
 namespace tunica::imaging {
@@ -149,6 +150,23 @@ TEST(LabelImage, MayHoldItsLabelsInAnyTypeAndByteOrder) {
           << bytes;
       EXPECT_EQ(read_label_image(folder.path() / "a.mha").labels, labels);
     }
+}
+
+TEST(LabelImage, LargeUnsignedValuesDoNotBecomeNegativeLabels) {
+  const test::TemporaryFolder folder;
+  for (const char* type : {"MET_USHORT", "MET_UINT", "MET_ULONG_LONG"}) {
+    // The first value is 40000, which as a signed number of 16 bits would be -25536.
+    std::string bytes(64, '\0');
+    bytes[0] = '\x40';
+    bytes[1] = '\x9c';
+    std::ofstream(folder.path() / "a.mha", std::ios::binary)
+        << "NDims = 3\nElementSpacing = 1 1 1\nDimSize = 2 2 2\nElementType = " << type << "\nElementDataFile = LOCAL\n"
+        << bytes.substr(0, type == std::string("MET_USHORT") ? 16
+                           : type == std::string("MET_UINT") ? 32
+                                                             : 64);
+    const auto text = test::message_of<InputError>([&] { read_label_image(folder.path() / "a.mha"); });
+    EXPECT_NE(text.find("the value of voxel 0 is 40000"), std::string::npos) << type << ": " << text;
+  }
 }
 
 }  // namespace

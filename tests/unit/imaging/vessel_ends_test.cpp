@@ -25,7 +25,8 @@ bool in_tube(const Point& p, const Point& from, const Vec3<double>& axis, double
   return along > 0 && along < length && norm(p - from - along * axis) < radius;
 }
 
-/// A trunk along z from -18 to 20 mm, radius 3.5 mm, and a long branch of 3 mm that leaves it at 50 degrees from its axis.
+/// A trunk along z from -18 to 20 mm, radius 3.5 mm, and a long branch of 3 mm that leaves it at 50 degrees from its
+/// axis.
 const Vec3<double> branch_axis{{std::sin(50 * M_PI / 180), 0, std::cos(50 * M_PI / 180)}};
 int branched(const Point& p) {
   return in_tube(p, {{0, 0, -18 * mm}}, {{0, 0, 1}}, 38 * mm, 3.5 * mm) ||
@@ -106,6 +107,27 @@ TEST(VesselEnds, AreCarriedOnAndNothingElseIs) {
     added += is && !was ? vessel.mask.frame.voxel_volume() : 0;
   }
   EXPECT_NEAR(added * 1e9, std::numbers::pi * 9 * 4, 0.12 * std::numbers::pi * 9 * 4);
+}
+
+TEST(VesselEnds, GoOnAsTheirMirrorImage) {
+  // A tube that ends at z = 2 mm; its lower part is false lumen.
+  const auto label = [](const Point& p) {
+    return in_tube(p, {{0, 0, -10 * mm}}, {{0, 0, 1}}, 12 * mm, 3 * mm) ? (p[2] < -1 * mm ? 2 : 1) : 0;
+  };
+  auto mask = lumen_mask(image_of(label, {16, 16, 40}, straight), {1, 2}, 12, silent);
+  continue_beyond({{{0, 0, 2 * mm}}, {{0, 0, 1}}, 3 * mm}, 6 * mm, mask);
+  // The mirror stands one and a half voxels of 0.7 mm before the end.
+  const double mirror = (2 - 1.5 * 0.7) * mm, border = 2 * mirror + 1 * mm;
+  int in_true = 0, in_false = 0;
+  for (std::int64_t i = 0; i < mask.frame.count(); ++i) {
+    const auto p = mask.frame.place(mask.frame.voxel(i));
+    if (std::hypot(p[0], p[1]) > 2 * mm || p[2] < 2 * mm || p[2] > 7.5 * mm || std::abs(p[2] - border) < 0.4 * mm)
+      continue;
+    EXPECT_EQ(mask.kinds[static_cast<std::size_t>(i)], p[2] < border ? Kind::true_lumen : Kind::false_lumen) << p[2];
+    (p[2] < border ? in_true : in_false) += 1;
+  }
+  EXPECT_GT(in_true, 10);
+  EXPECT_GT(in_false, 50);
 }
 
 }  // namespace
