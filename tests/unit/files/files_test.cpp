@@ -134,6 +134,9 @@ TEST(Hash, NoticesEveryBitAndTheOrder) {
   EXPECT_NE(ab.value(), ba.value());
   EXPECT_EQ(hex(0xabcULL), "0000000000000abc");
   EXPECT_EQ(Hash().value(), 14695981039346656037ULL);  // FNV-1a of nothing
+  // One word, filled up with zeros: files of other days hold such numbers.
+  const std::uint64_t word = (14695981039346656037ULL ^ 0x636261ULL) * 1099511628211ULL;
+  EXPECT_EQ(of("abc"), word ^ (word >> 32));
 }
 
 TEST(TimeStamp, IsTheTimeOfNowInUtc) {

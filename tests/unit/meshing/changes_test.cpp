@@ -110,26 +110,6 @@ TEST(Changes, LeaveTheBodyAndMakeNoShapeWorse) {
   }
 }
 
-TEST(Changes, KeepTheEdgesOfSurfacesWhenAsked) {
-  const auto before = shaken(3);
-  LocalMesh local(before);
-  for (Cell c = 0; c < local.cells(); ++c)
-    if (local.alive(c) && local.sine(c) < 0.4) reconnect(local, c, {.keep_surface = true});
-  const auto triangles = [](const geometry::Tetrahedra& mesh) {
-    std::multiset<std::array<double, 9>> result;
-    for (const auto& t : geometry::surface_triangles(mesh)) {
-      auto n = t.nodes;
-      std::rotate(n.begin(), std::min_element(n.begin(), n.end()), n.end());
-      std::array<double, 9> x;
-      for (std::size_t k = 0; k < 9; ++k)
-        x[k] = mesh.points[static_cast<std::size_t>(n[k / 3])][static_cast<int>(k % 3)];
-      result.insert(x);
-    }
-    return result;
-  };
-  EXPECT_EQ(triangles(local.extract()), triangles(before));
-}
-
 TEST(Changes, AreReversedByMovingANodeBack) {
   const auto mesh = shaken(4);
   LocalMesh local(mesh);

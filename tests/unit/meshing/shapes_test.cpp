@@ -91,6 +91,9 @@ TEST(Topology, CountsHandlesAndParts) {
   EXPECT_EQ(t.genus, 0);
   EXPECT_EQ(t.parts, 1);
   EXPECT_TRUE(t.manifold);
+  // Two that share an edge: there are four triangles, though none is open.
+  EXPECT_FALSE(
+      topology({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 4, 1}, {0, 1, 5}, {1, 4, 5}, {0, 5, 4}}).manifold);
   EXPECT_EQ(topology(torus(4, 5, 10)).genus, 1);
   auto surface = joined(torus(4, 5, 0), torus(6, 4, 100));
   t = topology(surface);

@@ -38,6 +38,22 @@ const Vessel soft{2e-9, {{2e6, 1.2e5}, {1e6, 0.5e5}, {5e6, 2e5}}};
 const FlowSplit three{.fractions = {0.2, 0.5, 0.3}, .distal_share = 0.9, .distal_pressure = 1000};
 const Totals totals{.resistance = 1.5e8, .compliance = 9e-9};
 
+TEST(ShareOut, OutletsSideBySideAreTheTotals) {
+  const auto outlets = share_out(three, totals);
+  double conductance = 0, compliance = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& o = outlets[i];
+    conductance += 1 / (o.proximal + o.distal);
+    compliance += o.capacitance;
+    // All fill and empty in the same time, and take their share of the flow.
+    EXPECT_NEAR(o.distal * o.capacitance, 0.9 * totals.resistance * totals.compliance, 1e-12);
+    EXPECT_NEAR(totals.resistance / (o.proximal + o.distal), three.fractions[i], 1e-14);
+    EXPECT_EQ(o.distal_pressure, 1000);
+  }
+  EXPECT_NEAR(conductance * totals.resistance, 1, 1e-14);
+  EXPECT_NEAR(compliance / totals.compliance, 1, 1e-14);
+}
+
 TEST(Twin, EmptiesIntoItsOutletAsAnExponential) {
   const Twin twin(rigid, {rcr}, bc::Waveform::constant(0), period);
   const auto cycle = twin.first_cycle({.time = 0, .pressure = 12e3, .flows = {0}, .stored = {12e3}});
