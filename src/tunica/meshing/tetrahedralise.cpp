@@ -4,6 +4,9 @@
 #define TETLIBRARY
 #include <tetgen.h>
 
+#include <cmath>
+#include <map>
+
 #include "tunica/base/error.hpp"
 
 namespace tunica::meshing {
@@ -26,6 +29,33 @@ void add_facet(tetgenio::facet& facet, const std::array<int, 3>& corners) {
   polygon.numberofvertices = 3;
   polygon.vertexlist = new int[3];
   std::copy(corners.begin(), corners.end(), polygon.vertexlist);
+}
+
+/// Places in the cavities of a label: what its surfaces enclose but is not its own, such as a false lumen that no tear
+/// joins to the true one, within the wall. Of a cavity the surface has a negative volume.
+std::vector<geometry::Point> places_in_cavities(const SurfaceComplex& complex, Label label) {
+  geometry::TriangleSurface around{complex.points, {}};
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
+    const Patch& patch = complex.patches[complex.patch_of[t]];
+    if (!bounds(patch, label)) continue;
+    auto corners = complex.triangles[t];
+    if (patch.positive == label) std::swap(corners[1], corners[2]);
+    around.triangles.push_back(corners);
+  }
+  const auto part = geometry::components(around);
+  std::map<std::int64_t, std::vector<geometry::Triangle>> parts;
+  for (std::size_t t = 0; t < part.size(); ++t) parts[part[t]].push_back(around.triangles[t]);
+  std::vector<geometry::Point> places;
+  for (const auto& [number, triangles] : parts) {
+    const geometry::TriangleSurface surface{complex.points, triangles};
+    if (geometry::enclosed_volume(surface) >= 0) continue;
+    constexpr double into = 1e-3;  // of the size of a triangle: nothing else is that near
+    const auto& t = triangles.front();
+    const auto area = geometry::area_vector(surface, t);
+    const auto middle = (1.0 / 3) * (complex.points[t[0]] + complex.points[t[1]] + complex.points[t[2]]);
+    places.push_back(middle + (into / std::sqrt(norm(area))) * area);
+  }
+  return places;
 }
 
 /// The part of the complex around one label, and the number of each of its points in the complex.
@@ -67,6 +97,12 @@ void fill_in(Hull& hull, const SurfaceComplex& complex, Label label, const std::
     add_facet(in.facetlist[f], facets[f]);
     in.facetmarkerlist[f] = markers[f];
   }
+  const auto cavities = places_in_cavities(complex, label);
+  if (cavities.empty()) return;
+  in.numberofholes = static_cast<int>(cavities.size());
+  in.holelist = new double[3 * cavities.size()];
+  for (std::size_t h = 0; h < cavities.size(); ++h)
+    for (int d = 0; d < 3; ++d) in.holelist[3 * h + d] = to_tetgen * cavities[h][d];
 }
 
 const char* reason(int code) {

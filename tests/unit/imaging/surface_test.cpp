@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
+#include "small_images.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/label_surface.hpp"
 #include "tunica/imaging/smooth_field.hpp"
@@ -13,27 +13,7 @@
 namespace tunica::imaging {
 namespace {
 
-constexpr double mm = 1e-3;
-using Label = std::function<int(const Point&)>;
-
-/// Image of `voxels` on each side about the origin.
-LabelImage image_of(const Label& label, const Size3& voxels, const std::array<Vec3<double>, 3>& steps) {
-  LabelImage image{{voxels, {{0, 0, 0}}, steps}, {}};
-  for (int d = 0; d < 3; ++d)
-    image.frame.origin = image.frame.origin - (0.5 * static_cast<double>(voxels[d] - 1)) * steps[d];
-  for (std::int64_t i = 0; i < image.frame.count(); ++i)
-    image.labels.push_back(static_cast<std::int16_t>(label(image.frame.place(image.frame.voxel(i)))));
-  return image;
-}
-constexpr std::array<Vec3<double>, 3> straight = {{{{0.7 * mm, 0, 0}}, {{0, 0.7 * mm, 0}}, {{0, 0, 0.7 * mm}}}};
-
-/// Turned, unequal and left-handed.
-std::array<Vec3<double>, 3> oblique() {
-  const double c = std::cos(0.4), s = std::sin(0.4);
-  return {{{{0.6 * mm * c, 0.6 * mm * s, 0}}, {{-0.7 * mm * s, 0.7 * mm * c, 0}}, {{0, 0, -0.9 * mm}}}};
-}
-
-void silent(const std::string&) {}
+using namespace testing;
 
 /// Log of `surface_of`, or the message of its error.
 std::string outcome(const LabelImage& image, const SurfaceSettings& settings) {

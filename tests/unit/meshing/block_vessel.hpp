@@ -2,9 +2,14 @@
 // true lumen (small x) and a false one (large x), closed at both ends and joined to the true one by one hole.
 #pragma once
 
+#include <map>
+#include <string>
+#include <utility>
+
 #include "tunica/geometry/openings.hpp"
 #include "tunica/geometry/tetrahedra.hpp"
 #include "tunica/mesh/generate.hpp"
+#include "tunica/meshing/surface_complex.hpp"
 
 namespace tunica::meshing::test {
 
@@ -45,6 +50,28 @@ inline std::vector<geometry::Opening> block_openings(const BlockVessel& v) {
   const double middle = v.across * 0.5e-3, radius = v.across * 0.72e-3;
   return {{"inlet", {{middle, middle, 0}}, {{0, 0, -1}}, 0, radius, {}, {}, 0},
           {"outlet", {{middle, middle, v.along * 1e-3}}, {{0, 0, 1}}, 0, radius, {}, {}, 0}};
+}
+
+/// The surfaces of a mesh as a complex to be filled: one patch for each pair of labels that meet.
+inline SurfaceComplex complex_of(const geometry::Tetrahedra& mesh) {
+  SurfaceComplex complex{mesh.points, {}, {}, {}, {}};
+  std::map<std::pair<int, int>, std::int32_t> number;
+  for (const auto& t : geometry::surface_triangles(mesh)) {
+    const auto [patch, is_new] = number.emplace(std::pair(t.label, t.neighbour_label), std::ssize(complex.patches));
+    if (is_new)
+      complex.patches.push_back({"patch_" + std::to_string(patch->second),
+                                 t.neighbour_label == geometry::wall_label ? PatchKind::interface
+                                 : t.label == geometry::lumen_label        ? PatchKind::lumen_cap
+                                                                           : PatchKind::outer_wall,
+                                 static_cast<Label>(t.label), static_cast<Label>(t.neighbour_label)});
+    complex.triangles.push_back(t.nodes);
+    complex.patch_of.push_back(patch->second);
+  }
+  geometry::TriangleSurface used{complex.points, complex.triangles};
+  geometry::drop_unused_points(used);
+  complex.points = used.points;
+  complex.triangles = used.triangles;
+  return complex;
 }
 
 inline double volume(const geometry::Tetrahedra& mesh, int label) {

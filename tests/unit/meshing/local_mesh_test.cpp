@@ -159,6 +159,14 @@ TEST(Reconnect, TurnsAnEdgeOfAPlaneSurface) {
   }
 }
 
+TEST(Reconnect, LeavesSurfacesAsTheyAreWhenAsked) {
+  for (const bool two_labels : {false, true}) {
+    LocalMesh local(rhombus(two_labels, 0));
+    EXPECT_FALSE(reconnect(local, 0, {.keep_surface = true}));
+    EXPECT_TRUE(local.is_edge(0, 1));
+  }
+}
+
 TEST(Reconnect, KeepsAnEdgeWhereTheSurfaceBends) {
   for (const bool two_labels : {false, true})
     for (const double bend : {0.15, -0.15}) {

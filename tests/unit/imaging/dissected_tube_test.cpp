@@ -1,0 +1,158 @@
+// Surfaces of segmentations with a flap, and of the scan of the idealised dissection.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "small_images.hpp"
+#include "tunica/imaging/label_surface.hpp"
+#include "tunica/imaging/synthetic_scan.hpp"
+
+namespace tunica::imaging {
+namespace {
+
+using namespace testing;
+
+/// A tube of radius 7 mm between z = -20 and 20 mm. A flap of 2.1 mm at x = 0 begins 4 mm from its ends and has as many
+/// holes of 3 mm radius as asked for.
+Label dissected(int holes) {
+  return [holes](const Point& p) {
+    if (std::hypot(p[0], p[1]) >= 7 * mm || std::abs(p[2]) >= 20 * mm) return 0;
+    const bool at_flap = std::abs(p[0]) < 1.05 * mm && std::abs(p[2]) < 16 * mm;
+    const double places[] = {-8, 8};
+    bool open = false;
+    for (int k = 0; k < holes; ++k) open |= std::hypot(p[1], p[2] - places[k] * mm) < 3 * mm;
+    if (at_flap && !open) return 0;
+    // The lumens also meet in the holes, at the middle of the flap; beyond the flap all is true lumen.
+    return p[0] < 0 && std::abs(p[2]) < 14 * mm ? 2 : 1;
+  };
+}
+
+/// Beyond the flap lies a wall between the lumens but for the true one: the false lumen ends there.
+Label with_closed_ends(const Label& label) {
+  return [label](const Point& p) {
+    const bool end_of_false = p[0] < 1.05 * mm && std::abs(p[2]) > 14 * mm && std::abs(p[2]) < 16 * mm;
+    return end_of_false ? 0 : label(p);
+  };
+}
+
+/// Of the false lumen, which ends in flat faces as well, no end is an opening; the tube is cut.
+SurfaceSettings at_both_ends(double smoothing) {
+  SurfaceSettings settings;
+  settings.labels = {1, 2};
+  settings.smoothing = smoothing;
+  settings.openings = {{"inlet", {{{0, 0, -19 * mm}}, Vec3<double>{{0, 0, -1}}}},
+                       {"outlet", {{{0, 0, 19 * mm}}, Vec3<double>{{0, 0, 1}}}}};
+  return settings;
+}
+
+TEST(DissectedTube, TheFlapHasTheTearsOfTheLabels) {
+  for (const int holes : {1, 2}) {
+    const auto image = image_of(with_closed_ends(dissected(holes)), {26, 26, 62}, straight);
+    std::string log;
+    const auto result = surface_of(image, at_both_ends(0.85), [&](const std::string& line) { log += line + "\n"; });
+    ASSERT_EQ(result.tears.size(), static_cast<std::size_t>(holes)) << log;
+    for (const auto& tear : result.tears) {
+      EXPECT_NEAR(tear.area * 1e6, std::numbers::pi * 9, 2.5);
+      EXPECT_NEAR(std::abs(tear.centre[2]) / mm, 8, 0.2);
+    }
+    EXPECT_EQ(result.ends.size(), 2U) << log;
+    // Each further tear is a handle.
+    EXPECT_EQ(geometry::genus(result.lumen, 2), holes - 1);
+    EXPECT_EQ(log.find("warning"), std::string::npos) << log;
+  }
+}
+
+TEST(DissectedTube, AClosedTearIsNoticed) {
+  // A hole of six voxels between lumens that also meet elsewhere is smoothed away.
+  const auto full = with_closed_ends(dissected(1));
+  const auto image = image_of(
+      [&](const Point& p) {
+        if (std::hypot(p[1], p[2] - 6 * mm) < 0.9 * mm && std::abs(p[0]) < 1.2 * mm) return p[0] < 0 ? 2 : 1;
+        return full(p);
+      },
+      {26, 26, 62}, straight);
+  std::string log;
+  const auto result = surface_of(image, at_both_ends(2), [&](const std::string& line) { log += line + "\n"; });
+  EXPECT_EQ(result.tears.size(), 2U) << log;
+  EXPECT_EQ(geometry::genus(result.lumen, 2), 0);
+  EXPECT_NE(log.find("2 tears make a surface of genus 1, this one has 0"), std::string::npos) << log;
+}
+
+/// Two blood vessels of the idealised dissection's kind are slow to look at finely: voxels of 2 mm.
+class SyntheticScan : public ::testing::Test {
+ protected:
+  static const geometry::DissectionModel& model() {
+    static const geometry::DissectionModel body(
+        config::parse_text(geometry::ParametricDissection::schema(), "{}").value);
+    return body;
+  }
+  static double volume(const LabelImage& image) {
+    double voxels = 0;
+    for (const auto label : image.labels) voxels += label != 0;
+    return voxels * image.frame.voxel_volume();
+  }
+};
+
+TEST_F(SyntheticScan, WithoutBlurAndNoiseIsTheBodyItself) {
+  const auto image = scan(model(), {.voxel = 2 * mm, .blur = 0, .noise = 0});
+  std::int64_t far = 0;
+  for (std::int64_t i = 0; i < image.frame.count(); i += 7) {
+    const auto values = model().at(image.frame.place(image.frame.voxel(i)));
+    bool near = std::abs(values.lumen) < 2 * mm;
+    for_each_face_neighbour(image.frame, i, [&](std::int64_t other) {  // where vessels end the function jumps
+      near |= (model().at(image.frame.place(image.frame.voxel(other))).lumen < 0) != (values.lumen < 0);
+    });
+    if (near) continue;
+    ++far;
+    EXPECT_EQ(image.labels[static_cast<std::size_t>(i)], values.lumen > 0  ? 0
+                                                         : values.side > 0 ? scan_true_lumen
+                                                                           : scan_false_lumen);
+  }
+  EXPECT_GT(far, 1000);
+}
+
+TEST_F(SyntheticScan, ShowsTheSameBodyOnTiltedAxes) {
+  const auto upright = scan(model(), {.voxel = 2 * mm, .blur = 1 * mm, .noise = 0});
+  const auto tilted = scan(model(), {.voxel = 2 * mm, .blur = 1 * mm, .noise = 0, .tilt = 0.6});
+  EXPECT_NEAR(volume(tilted) / volume(upright), 1, 0.01);
+  const auto m = (1 / (2 * mm)) * tilted.frame.matrix();
+  EXPECT_NEAR(determinant(m), 1, 1e-12);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      EXPECT_NEAR(dot(tilted.frame.steps[a], tilted.frame.steps[b]), a == b ? 4 * mm * mm : 0, 1e-18);
+  // Of a turn the trace is 1 + 2 cos, and the axis stays.
+  EXPECT_NEAR(m(0, 0) + m(1, 1) + m(2, 2), 1 + 2 * std::cos(0.6), 1e-12);
+  EXPECT_NEAR(norm(m * Vec3<double>{{1, 1, 1}} - Vec3<double>{{1, 1, 1}}), 0, 1e-12);
+  // All of the body lies in the image.
+  for (const auto& image : {upright, tilted})
+    for (std::int64_t i = 0; i < image.frame.count(); ++i) {
+      const auto v = image.frame.voxel(i);
+      bool border = false;
+      for (int d = 0; d < 3; ++d) border |= v[d] == 0 || v[d] == image.frame.size[d] - 1;
+      if (border) {
+        EXPECT_EQ(image.labels[static_cast<std::size_t>(i)], 0);
+      }
+    }
+}
+
+TEST_F(SyntheticScan, NoiseIsThatOfTheSeed) {
+  ScanSettings settings{.voxel = 2 * mm, .noise = 0.3};
+  const auto one = scan(model(), settings), again = scan(model(), settings);
+  EXPECT_EQ(one.labels, again.labels);
+  settings.seed = 2;
+  const auto other = scan(model(), settings);
+  EXPECT_NE(one.labels, other.labels);
+  // Noise turns as many voxels on as off only where half is lumen; far outside one in 1 / Q(0.5 / 0.3) = 21 is on.
+  std::int64_t outside = 0, on = 0;
+  for (std::int64_t i = 0; i < one.frame.count(); i += 5) {
+    if (model().at(one.frame.place(one.frame.voxel(i))).lumen < 5 * mm) continue;
+    ++outside;
+    on += one.labels[static_cast<std::size_t>(i)] != 0;
+  }
+  const double expected = 0.5 * std::erfc(0.5 / 0.3 / std::numbers::sqrt2);
+  EXPECT_NEAR(static_cast<double>(on) / static_cast<double>(outside), expected, 0.05 * expected);
+}
+
+}  // namespace
+}  // namespace tunica::imaging
