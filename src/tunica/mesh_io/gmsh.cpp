@@ -27,7 +27,7 @@ std::string physical_name(const MshFile& file, int dimension, int entity, const 
   if (n != 1)
     throw InputError(where, fmt::format("{} is in {} physical groups, it must be in exactly 1", what, n),
                      "put each volume and boundary surface into one named physical group");
-  const auto name = file.physical_names.find({dimension, std::abs(tags->second[0])});
+  const auto name = file.physical_names.find({dimension, tags->second[0]});
   if (name == file.physical_names.end())
     throw InputError(where, fmt::format("{} is in physical group {}, which has no name", what, tags->second[0]),
                      "name the physical groups");
