@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/quality.hpp"
+#include "tunica/mesh_io/extent.hpp"
 #include "tunica/mesh_io/msh_file.hpp"
 
 namespace tunica::mesh_io {
@@ -100,6 +101,7 @@ std::vector<Index> fill_points(const MshFile& file, double metres_per_unit, cons
     position[n] = std::ssize(data.points);
     data.points.push_back(x);
   }
+  refuse_unlikely_size(data.points, metres_per_unit, where);
   for (auto& t : data.tetrahedra)
     for (auto& n : t) n = position[n];
   return position;
