@@ -12,12 +12,14 @@
 #include <sstream>
 
 #include "tunica/base/error.hpp"
+#include "tunica/mesh_io/extent.hpp"
 
 namespace tunica::geometry {
 
 namespace {
 
-constexpr double planar_within = 0.2;  ///< of the radius of the opening
+constexpr std::size_t longest_line = 10'000;  ///< bytes, of a table of openings
+constexpr double planar_within = 0.2;         ///< of the radius of the opening
 
 struct RimShape {
   Point centre;
@@ -140,7 +142,9 @@ bool lies_in(const Opening& opening, const Point& x) {
 std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, double metres_per_unit) {
   const std::string remedy = "write a table with the columns name, centre_x, centre_y, centre_z";
   std::ifstream file(path);
-  if (!file) throw InputError(path.string(), "cannot be read", "check the path");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || !file)
+    throw InputError(path.string(), "cannot be read", "check the path");
   const auto cells = [](const std::string& line) {
     std::vector<std::string> result;
     std::istringstream stream(line);
@@ -156,7 +160,9 @@ std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, do
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
-    if (line.empty() || line[0] == '#') continue;
+    if (line.size() > longest_line || line.find('\0') != std::string::npos)
+      throw InputError(fmt::format("{}, line {}", path.string(), number), "is no line of a table", remedy);
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
     if (header.empty()) {
       header = cells(line);
       continue;
@@ -196,7 +202,8 @@ std::vector<Opening> find_openings(const TriangleSurface& lumen, const TriangleS
     openings.push_back({"", rim.centre, (1 / size) * rim.area, size, 0, loop, {}, 0});
   }
   if (openings.empty())
-    throw InputError("lumen surface", "has no openings", "cut it open at the inlet and the outlets");
+    throw InputError("lumen surface", fmt::format("has no openings; its size is {}", mesh_io::size_text(lumen.points)),
+                     "cut it open at the inlet and the outlets, or correct length_unit when that is not its size");
   if (outer) add_wall_rims(lumen, *outer, openings, problems);
   for (auto& opening : openings) {
     opening.out_of_plane = largest_distance(lumen, opening.lumen, opening.centre, opening.normal);

@@ -47,8 +47,8 @@ void update(Reader* reader, const char* kind, const std::vector<std::string>& fi
             const std::filesystem::path& path) {
   auto wanted = fields;
   wanted.insert(wanted.end(), {node_ids, element_ids});
-  check_vtk_file(path, kind, wanted);
   const FirstVtkMessage message(reader);
+  check_vtk_file(path, kind, wanted);
   try {
     reader->SetFileName(path.c_str());
     reader->UpdateInformation();

@@ -63,7 +63,8 @@ TEST(Openings, RefusesWhatDoesNotMatch) {
 
 TEST(Openings, RefusesAClosedSurface) {
   const auto ball = contour({{2e-3, 2e-3, 2e-3}}, 0.3e-3, [](const Point& x) { return norm(x) - 1e-3; });
-  EXPECT_TRUE(says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings"));
+  EXPECT_TRUE(
+      says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings; its size is "));
 }
 
 TEST(Openings, RimsAreFlattenedWithoutFolds) {
@@ -99,6 +100,9 @@ TEST(OpeningNames, ReadFromTable) {
   EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,3\na,1,2,3\n"), "there already"));
   EXPECT_TRUE(says(why("# nothing\n"), "names no opening"));
   EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path / "none.csv", 1); }), "cannot be read"));
+  EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path, 1); }), "cannot be read"));
+  EXPECT_TRUE(says(why(std::string(20000, 'x')), "line 1: is no line of a table"));
+  EXPECT_TRUE(says(why(std::string("name\0", 5)), "line 1: is no line of a table"));
 }
 
 }  // namespace
