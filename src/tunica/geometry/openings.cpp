@@ -102,6 +102,20 @@ void add_wall_rims(const TriangleSurface& lumen, const TriangleSurface& outer, s
   }
 }
 
+/// A unit that is wrong by a factor of ten leaves a size that is still possible, but no aorta is that narrow or wide.
+void refuse_unlikely_diameter(const TriangleSurface& lumen, const std::vector<Opening>& openings) {
+  constexpr double narrowest = 4e-3, widest = 150e-3;  // m
+  double area = 0;
+  for (const auto& opening : openings) area = std::max(area, opening.area);
+  const double diameter = 2 * std::sqrt(area / M_PI);
+  if (diameter >= narrowest && diameter <= widest) return;
+  throw InputError(
+      "lumen surface",
+      fmt::format("its largest opening is {:.3g} mm wide, and its size is {}; an aorta is {:g} to {:g} mm wide",
+                  1e3 * diameter, mesh_io::size_text(lumen.points), 1e3 * narrowest, 1e3 * widest),
+      "correct length_unit, or the coordinates in the file");
+}
+
 void give_names(std::vector<Opening>& openings, const std::vector<NamedPlace>& names, std::vector<Problem>& problems) {
   std::sort(openings.begin(), openings.end(), [](const Opening& a, const Opening& b) { return a.area > b.area; });
   if (names.empty()) {
@@ -204,6 +218,7 @@ std::vector<Opening> find_openings(const TriangleSurface& lumen, const TriangleS
   if (openings.empty())
     throw InputError("lumen surface", fmt::format("has no openings; its size is {}", mesh_io::size_text(lumen.points)),
                      "cut it open at the inlet and the outlets, or correct length_unit when that is not its size");
+  refuse_unlikely_diameter(lumen, openings);
   if (outer) add_wall_rims(lumen, *outer, openings, problems);
   for (auto& opening : openings) {
     opening.out_of_plane = largest_distance(lumen, opening.lumen, opening.centre, opening.normal);

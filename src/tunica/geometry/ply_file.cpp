@@ -109,7 +109,7 @@ class Values {
     const auto each = form_ == Form::ascii ? 2 : std::max<std::size_t>(bytes, 1);
     const auto left = content_.size() - at_ + 1;  // the last number of a text may end without a space
     if (static_cast<std::uint64_t>(count) > left / each)
-      refuse(fmt::format("the head says {} {}, but only {} bytes follow", count, what, left - 1));
+      refuse(fmt::format("{} {} are announced, but only {} bytes follow", count, what, left - 1));
   }
   /// Of the next list.
   std::int64_t length(const Property& list) {

@@ -1,5 +1,7 @@
 #include "tunica/geometry/openings.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "small_surfaces.hpp"
@@ -61,10 +63,19 @@ TEST(Openings, RefusesWhatDoesNotMatch) {
   EXPECT_TRUE(says(why(lumen, wall, {{"side", {{20e-3, 0, 10e-3}}}}), "there is no opening of its own"));
 }
 
+TEST(Openings, RefusesDiametersThatSpeakOfAnotherUnit) {
+  for (const double factor : {0.1, 25.4}) {
+    auto scaled = lumen;
+    for (auto& p : scaled.points) p = factor * p;
+    const auto text = message_of<InputError>([&] { find_openings(scaled, nullptr, {}); });
+    EXPECT_TRUE(says(text, fmt::format("its largest opening is {:.3g} mm wide", 9.94 * factor))) << text;
+    EXPECT_TRUE(says(text, "correct length_unit")) << text;
+  }
+}
+
 TEST(Openings, RefusesAClosedSurface) {
   const auto ball = contour({{2e-3, 2e-3, 2e-3}}, 0.3e-3, [](const Point& x) { return norm(x) - 1e-3; });
-  EXPECT_TRUE(
-      says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings; its size is "));
+  EXPECT_TRUE(says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings; its size is "));
 }
 
 TEST(Openings, RimsAreFlattenedWithoutFolds) {
