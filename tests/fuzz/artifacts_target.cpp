@@ -25,7 +25,7 @@ struct Context {
   mesh::MeshData wall = mesh_io::read_simvascular("sv", mesh::RegionKind::wall, "wall", {.metres_per_unit = 1}).data;
   distributed::DistributedMesh mesh = distributed::distribute(wall, MPI_COMM_SELF);
   coupling::State start;
-  case_file::TuningCase outlets{.systolic = 16000, .diastolic = 10000, .fractions = {{"left", 0.4}, {"right", 0.6}}};
+  case_file::TuningCase outlets;
 };
 
 Context& context() {
@@ -40,6 +40,9 @@ void start_target() {
   for (auto* field :
        {&c.start.velocity_pressure, &c.start.acceleration, &c.start.displacement, &c.start.displacement_rate})
     field->assign(4 * c.mesh.points.size(), 0.0);
+  c.outlets.systolic = 16000;
+  c.outlets.diastolic = 10000;
+  c.outlets.fractions = {{"left", 0.4}, {"right", 0.6}};
   c.start.outlets.emplace_back("outlet", bc::Rcr{.proximal = 1, .capacitance = 2, .distal = 3});
 }
 
