@@ -1,6 +1,9 @@
 // NRRD as in its definition, teem.sourceforge.net/nrrd/format.html, for one three-dimensional scalar image.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "tunica/base/error.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/imaging/header_file.hpp"
@@ -65,15 +68,17 @@ Vec3<double> axis_signs(const TextHeader& header) {
   header.refuse("space", "this space is not known", "write it in left-posterior-superior or right-anterior-superior");
 }
 
-/// Metres in one unit of the space.
+/// Metres in one unit of the space, or of its axes where the file has no space. Without any they are mm.
 double length_unit(const TextHeader& header) {
-  const auto* units = header.find("space units");
-  if (!units || units->find("\"\"") != std::string::npos) return 1e-3;
-  const auto first = units->substr(0, units->find('"', 1) + 1);
-  if (first == "\"mm\"") return 1e-3;
-  if (first == "\"cm\"") return 1e-2;
-  if (first == "\"m\"") return 1;
-  header.refuse("space units", "lengths are in mm, cm or m", "write it in mm");
+  static const std::map<std::string, double> known = {
+      {"\"\"", 1e-3}, {"\"mm\"", 1e-3}, {"\"cm\"", 1e-2}, {"\"m\"", 1}, {"\"um\"", 1e-6}};
+  const auto name = header.first_of({"space units", "units"});
+  if (name.empty()) return 1e-3;
+  const auto units = words(header.need(name));
+  const auto found = known.find(units[0]);
+  if (found == known.end() || std::any_of(units.begin(), units.end(), [&](const auto& u) { return u != units[0]; }))
+    header.refuse(name, "lengths are in \"mm\", \"cm\", \"m\" or \"um\", the same along each axis", "write it in mm");
+  return found->second;
 }
 
 /// Centre of the first voxel along the axes of an image that has no directions, from `axis mins`. Voxels are cells

@@ -284,6 +284,17 @@ TEST_F(DamagedImage, NrrdPlacedByItsAxes) {
   refused("a.nrrd", nrrd("encoding: raw\nspace directions: (1,0,0) (0,nan,0) (0,0,1)"), "along axis 2 is nan");
 }
 
+TEST_F(DamagedImage, NrrdInOtherUnits) {
+  const auto spacing_in = [&](const std::string& units) {
+    return read_label_image(write("a.nrrd", nrrd(raw + "\n" + units))).frame.steps[0][0];
+  };
+  EXPECT_DOUBLE_EQ(spacing_in("units: \"cm\" \"cm\" \"cm\""), 1e-2);
+  EXPECT_DOUBLE_EQ(spacing_in("space units: \"um\" \"um\" \"um\""), 1e-6);
+  EXPECT_DOUBLE_EQ(spacing_in("units: \"\" \"\" \"\""), 1e-3);
+  refused("a.nrrd", nrrd(raw + "\nunits: \"mm\" \"mm\" \"cm\""), "the same along each axis");
+  refused("a.nrrd", nrrd(raw + "\nspace units: \"inch\" \"inch\" \"inch\""), "lengths are in");
+}
+
 TEST_F(DamagedImage, NrrdWithForeignHeadersBeforeItsData) {
   const auto detached = [&](const std::string& fields, const std::string& data) {
     write("a.raw", data);
