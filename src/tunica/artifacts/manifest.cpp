@@ -52,19 +52,30 @@ bool is_series_file(const std::string& name, const std::string& region) {
                      [](unsigned char c) { return std::isdigit(c) || c == '_'; });
 }
 
+[[noreturn]] void refuse(const fs::path& file) {
+  throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
+}
+
+/// An object with a list of at least one run.
 ordered_json read_manifest(const fs::path& file) {
   std::ifstream in(file);
   auto json = ordered_json::parse(in, nullptr, false);
-  if (json.is_discarded())
-    throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
+  if (!json.is_object() || !json.contains("runs") || !json["runs"].is_array() || json["runs"].empty()) refuse(file);
   return json;
+}
+
+/// A name that leads to files in the folder of the results and nowhere else: they are removed by it.
+std::string region_name(const ordered_json& region) {
+  const std::string name = region.at("name");
+  if (name.empty() || name.find('/') != std::string::npos) throw std::invalid_argument("no name of a region");
+  return name;
 }
 
 }  // namespace
 
 Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool continued)
     : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(files::time_stamp()) {
-  if (continued && fs::exists(file_)) earlier_runs_ = read_manifest(file_).value("runs", ordered_json::array()).dump();
+  if (continued && fs::exists(file_)) earlier_runs_ = read_manifest(file_)["runs"].dump();
 }
 
 void Manifest::write(const ManifestProgress& p) {
@@ -118,10 +129,10 @@ std::optional<EarlierResults> find_results(const fs::path& folder) {
     results.mesh_hash = from_hex(json.at("mesh").at("hash"));
     results.status = json.at("runs").back().at("status");
     results.last_step = json.at("runs").back().at("last_step");
-    for (const auto& region : json.at("mesh").at("regions")) results.regions.push_back(region.at("name"));
+    for (const auto& region : json.at("mesh").at("regions")) results.regions.push_back(region_name(region));
     return results;
   } catch (const std::exception&) {
-    throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
+    refuse(file);
   }
 }
 

@@ -1,10 +1,10 @@
 #include "tunica/imaging/header_file.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <fstream>
 #include <sstream>
 
@@ -12,9 +12,76 @@
 
 namespace tunica::imaging {
 
+namespace {
+
+constexpr std::size_t longest_header = std::size_t{1} << 20;
+
+/// Numbers of a text; false when a word is none of type T.
+template <class T>
+bool parse_numbers(std::string text, std::vector<T>& result) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  for (const auto& word : words(text)) {
+    const char* begin = word.data() + (word[0] == '+' ? 1 : 0);
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(begin, end, result.emplace_back());
+    if (error != std::errc() || stop != end) return false;
+  }
+  return true;
+}
+
+template <class T>
+std::vector<T> numbers_of(const TextHeader& header, const std::string& name, std::size_t count, const char* kind) {
+  std::vector<T> result;
+  if (!parse_numbers(header.need(name), result) || result.size() != count)
+    header.refuse(name, fmt::format("must be {} {}{}", count, kind, count == 1 ? "" : "s"),
+                  "write the image again as a single three-dimensional one");
+  return result;
+}
+
+}  // namespace
+
+HeaderLines::HeaderLines(const std::filesystem::path& path) : path_(path), start_(longest_header, '\0') {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) throw InputError(path.string(), "cannot be read", "check the path");
+  file.read(start_.data(), static_cast<std::streamsize>(start_.size()));
+  start_.resize(static_cast<std::size_t>(file.gcount()));
+  whole_ = file.peek() == std::ifstream::traits_type::eof();
+}
+
+bool HeaderLines::next() {
+  const auto end = start_.find('\n', at_);
+  if (end == std::string::npos && !whole_)
+    throw InputError(path_.string(), fmt::format("its header does not end within {} bytes", longest_header),
+                     "check how it was made");
+  if (at_ == start_.size()) return false;
+  text_ = trimmed(start_.substr(at_, end == std::string::npos ? end : end - at_));
+  at_ = end == std::string::npos ? start_.size() : end + 1;
+  ++number_;
+  return true;
+}
+
+void TextHeader::add(const std::string& name, const std::string& value, std::int64_t line) {
+  const auto key = lower(trimmed(name));
+  const auto where = fmt::format("{}:{}", path.string(), line);
+  if (value.empty())
+    throw InputError(where, fmt::format("field '{}' has no value", printable(trimmed(name))),
+                     "give it one, or write the image again");
+  const auto [field, is_new] = fields.emplace(key, Field{value, line});
+  if (!is_new)
+    throw InputError(where, fmt::format("field '{}' stands in line {} already", printable(key), field->second.line),
+                     "remove one of them");
+}
+
 const std::string* TextHeader::find(const std::string& name) const {
   const auto found = fields.find(name);
-  return found == fields.end() ? nullptr : &found->second;
+  return found == fields.end() ? nullptr : &found->second.value;
+}
+
+std::string TextHeader::first_of(std::initializer_list<const char*> names) const {
+  for (const char* name : names)
+    if (find(name)) return name;
+  return {};
 }
 
 const std::string& TextHeader::need(const std::string& name) const {
@@ -24,63 +91,24 @@ const std::string& TextHeader::need(const std::string& name) const {
 }
 
 std::vector<double> TextHeader::numbers(const std::string& name, std::size_t count) const {
-  std::string text = need(name);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  std::vector<double> result;
-  for (const auto& word : words(text)) {
-    char* end = nullptr;
-    result.push_back(std::strtod(word.c_str(), &end));
-    if (*end != '\0') result.resize(count + 1);
-  }
-  if (result.size() != count)
-    throw InputError(path.string(), fmt::format("field '{}' is '{}', must be {} numbers", name, need(name), count),
-                     "write the image again as a single three-dimensional one");
+  return numbers_of<double>(*this, name, count, "number");
+}
+
+std::vector<std::int64_t> TextHeader::whole_numbers(const std::string& name, std::size_t count) const {
+  return numbers_of<std::int64_t>(*this, name, count, "whole number");
+}
+
+std::vector<double> TextHeader::spacings(const std::string& name) const {
+  auto result = numbers(name, 3);
+  for (const double spacing : result)
+    if (!(spacing > 0)) refuse(name, "spacings are numbers above zero", "write the image again with its voxel spacing");
   return result;
 }
 
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw InputError(path.string(), "cannot be read", "check the path");
-  std::ostringstream all;
-  all << file.rdbuf();
-  return std::move(all).str();
-}
-
-std::string decompressed(const std::string& bytes, const std::filesystem::path& path) {
-  constexpr int zlib_or_gzip = 15 + 32;
-  z_stream stream{};
-  inflateInit2(&stream, zlib_or_gzip);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  std::string result;
-  int state = Z_OK;
-  while (state == Z_OK) {
-    const auto done = result.size();
-    result.resize(done + (std::size_t{1} << 22));
-    stream.next_out = reinterpret_cast<Bytef*>(result.data() + done);
-    stream.avail_out = static_cast<uInt>(result.size() - done);
-    state = inflate(&stream, Z_NO_FLUSH);
-    result.resize(result.size() - stream.avail_out);
-  }
-  inflateEnd(&stream);
-  if (state != Z_STREAM_END)
-    throw InputError(path.string(), "its compressed data are damaged or end too early", "write the image again");
-  return result;
-}
-
-std::string compressed(const std::string& bytes, bool gzip) {
-  z_stream stream{};
-  deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, 15 + (gzip ? 16 : 0), 8, Z_DEFAULT_STRATEGY);
-  std::string result(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(result.data());
-  stream.avail_out = static_cast<uInt>(result.size());
-  deflate(&stream, Z_FINISH);
-  result.resize(stream.total_out);
-  deflateEnd(&stream);
-  return result;
+void TextHeader::refuse(const std::string& name, const std::string& what, const std::string& remedy) const {
+  const auto& field = fields.at(name);
+  throw InputError(fmt::format("{}:{}", path.string(), field.line),
+                   fmt::format("field '{}' is '{}': {}", name, printable(field.value), what), remedy);
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -91,7 +119,7 @@ std::vector<std::string> words(const std::string& text) {
 }
 
 std::string trimmed(const std::string& text) {
-  const char* blank = " \t\r\n";
+  const char* blank = " \t\r\n\v\f";
   const auto first = text.find_first_not_of(blank);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
@@ -99,6 +127,14 @@ std::string trimmed(const std::string& text) {
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
+}
+
+std::string printable(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  auto shown = text.substr(0, longest);
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return text.size() > longest ? shown + "..." : shown;
 }
 
 }  // namespace tunica::imaging

@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/header_file.hpp"
@@ -28,23 +25,17 @@ Format format_of(const std::filesystem::path& path) {
                    "give a .nrrd, .nhdr, .mha, .mhd, .nii or .nii.gz file");
 }
 
-/// Reads values of type T, of either byte order.
-template <class T>
-std::vector<std::int16_t> convert(const std::string& bytes, bool big_endian, std::int64_t count,
-                                  const std::filesystem::path& path) {
-  if (bytes.size() < static_cast<std::size_t>(count) * sizeof(T))
-    throw InputError(path.string(),
-                     fmt::format("holds {} bytes of data, its size asks for {}", bytes.size(), count * sizeof(T)),
-                     "copy the file again, it seems to be cut off");
-  std::vector<std::int16_t> labels(count);
-  const bool turn = big_endian != (std::endian::native == std::endian::big);
-  for (std::int64_t i = 0; i < count; ++i) {
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), bytes.data() + i * sizeof(T), sizeof(T));
-    if (turn) std::reverse(raw.begin(), raw.end());
-    labels[i] = label_from_value(static_cast<double>(std::bit_cast<T>(raw)), i, path);
-  }
-  return labels;
+/// More voxels than any scanner's image has, and few enough that counting bytes cannot overflow.
+constexpr std::int64_t most_voxels = std::int64_t{1} << 31;
+
+void check_size(const Size3& size, const std::filesystem::path& path) {
+  const auto text = fmt::format("is an image of {} x {} x {} voxels", size[0], size[1], size[2]);
+  if (std::min({size[0], size[1], size[2]}) < 2)
+    throw InputError(path.string(), text + ", at least 2 along each axis are needed", "give a three-dimensional image");
+  // Divided, since the product may overflow.
+  if (size[0] > most_voxels / size[1] || size[0] * size[1] > most_voxels / size[2])
+    throw InputError(path.string(), fmt::format("{}, at most {} can be read", text, most_voxels),
+                     "correct the size in its header, or cut the image down to the vessel");
 }
 
 }  // namespace
@@ -62,64 +53,25 @@ double ImageFrame::voxel_volume() const { return std::abs(determinant(matrix()))
 
 double ImageFrame::largest_spacing() const { return std::max({norm(steps[0]), norm(steps[1]), norm(steps[2])}); }
 
-std::int16_t label_from_value(double value, std::int64_t index, const std::filesystem::path& path) {
-  using Limits = std::numeric_limits<std::int16_t>;
-  if (value >= Limits::min() && value <= Limits::max() && value == std::floor(value))
-    return static_cast<std::int16_t>(value);
-  throw InputError(path.string(),
-                   fmt::format("the value of voxel {} is {}, labels are whole numbers from {} to {}", index, value,
-                               Limits::min(), Limits::max()),
-                   "give the labels of the segmentation, not the scan itself");
-}
-
-std::vector<std::int16_t> labels_from_bytes(const std::string& bytes, ValueType type, bool big_endian,
-                                            std::int64_t count, const std::filesystem::path& path) {
-  switch (type) {
-    case ValueType::int8:
-      return convert<std::int8_t>(bytes, big_endian, count, path);
-    case ValueType::uint8:
-      return convert<std::uint8_t>(bytes, big_endian, count, path);
-    case ValueType::int16:
-      return convert<std::int16_t>(bytes, big_endian, count, path);
-    case ValueType::uint16:
-      return convert<std::uint16_t>(bytes, big_endian, count, path);
-    case ValueType::int32:
-      return convert<std::int32_t>(bytes, big_endian, count, path);
-    case ValueType::uint32:
-      return convert<std::uint32_t>(bytes, big_endian, count, path);
-    case ValueType::int64:
-      return convert<std::int64_t>(bytes, big_endian, count, path);
-    case ValueType::uint64:
-      return convert<std::uint64_t>(bytes, big_endian, count, path);
-    case ValueType::float32:
-      return convert<float>(bytes, big_endian, count, path);
-    default:
-      return convert<double>(bytes, big_endian, count, path);
-  }
-}
-
-std::string bytes_from_labels(const std::vector<std::int16_t>& labels) {
-  std::string bytes(2 * labels.size(), '\0');
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto value = static_cast<std::uint16_t>(labels[i]);
-    bytes[2 * i] = static_cast<char>(value & 0xff);
-    bytes[2 * i + 1] = static_cast<char>(value >> 8);
-  }
-  return bytes;
-}
-
 ImageFrame checked_frame(const Size3& size, const std::array<Vec3<double>, 3>& columns, const Point& origin,
                          const std::filesystem::path& path) {
+  check_size(size, path);
   const ImageFrame frame{size, origin, columns};
-  if (std::min({size[0], size[1], size[2]}) < 2)
-    throw InputError(path.string(), fmt::format("is an image of {} x {} x {} voxels", size[0], size[1], size[2]),
-                     "give a three-dimensional image");
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(path.string(), what, "write the image again with spacing, origin and directions");
+  };
   double product = 1;
-  for (const auto& step : columns) product *= norm(step);
+  for (int a = 0; a < 3; ++a) {
+    const double spacing = norm(columns[a]);
+    if (!(spacing > 0) || !std::isfinite(spacing))
+      refuse(fmt::format("its voxel spacing along axis {} is {} mm", a + 1, 1e3 * spacing));
+    product *= spacing;
+  }
+  if (!std::isfinite(norm(origin)))
+    refuse(fmt::format("its first voxel lies at ({}, {}, {}) mm", 1e3 * origin[0], 1e3 * origin[1], 1e3 * origin[2]));
   // Negated, so that values that are no numbers fail as well.
-  if (!(product > 0 && std::abs(determinant(frame.matrix())) > 0.01 * product) || !std::isfinite(norm(origin)))
-    throw InputError(path.string(), "its voxel spacing or its axes are zero, no numbers, or lie in one plane",
-                     "write the image again with spacing, origin and directions");
+  if (!(product > 0 && std::abs(determinant(frame.matrix())) > 0.01 * product))
+    refuse("its three axes lie (nearly) in one plane");
   return frame;
 }
 

@@ -6,33 +6,42 @@
 #include "tunica/files/series_file.hpp"
 #include "tunica/imaging/header_file.hpp"
 #include "tunica/imaging/image_formats.hpp"
+#include "tunica/imaging/voxel_data.hpp"
 
 namespace tunica::imaging {
 
 namespace {
 
 TextHeader read_header(const std::filesystem::path& path) {
-  TextHeader header{path, {}, {}};
-  const std::string all = read_bytes(path);
-  for (std::size_t at = 0; at < all.size();) {
-    const auto end = std::min(all.find('\n', at), all.size());
-    const auto line = all.substr(at, end - at);
+  TextHeader header{.path = path};
+  HeaderLines lines(path);
+  while (lines.next()) {
+    const auto& line = lines.text();
+    if (line.empty()) continue;
     const auto equals = line.find('=');
-    if (equals == std::string::npos) break;
-    at = end + 1;
-    const auto key = lower(trimmed(line.substr(0, equals)));
-    header.fields[key] = trimmed(line.substr(equals + 1));
+    if (equals == std::string::npos)
+      throw InputError(fmt::format("{}:{}", path.string(), lines.number()),
+                       fmt::format("'{}' is no line of a MetaImage header", printable(line)),
+                       "write `Key = Value`, and ElementDataFile as the last one");
+    const auto key = lower(trimmed(line.substr(0, equals))), value = trimmed(line.substr(equals + 1));
+    // Only notes may be empty, such as Comment.
+    if (!value.empty() || key == "elementdatafile") header.add(key, value, lines.number());
     if (key == "elementdatafile") {  // always the last one
-      if (at < all.size()) header.rest = all.substr(at);
+      header.data_offset = lines.offset();
       return header;
     }
   }
   throw InputError(path.string(), "is no MetaImage file: it names no ElementDataFile", "check how it was made");
 }
 
-bool flag(const TextHeader& header, const std::string& name) {
+/// Values begin like true or like false.
+bool flag(const TextHeader& header, const std::string& name, bool otherwise) {
   const auto* value = header.find(name);
-  return value && (lower(*value) == "true" || *value == "1");
+  if (!value) return otherwise;
+  const auto first = lower(*value)[0];
+  if (first != 't' && first != '1' && first != 'f' && first != '0')
+    header.refuse(name, "must be True or False", "correct it");
+  return first == 't' || first == '1';
 }
 
 ValueType value_type(const TextHeader& header) {
@@ -43,50 +52,77 @@ ValueType value_type(const TextHeader& header) {
       {"met_double", ValueType::float64}};
   const auto found = types.find(lower(header.need("elementtype")));
   if (found != types.end()) return found->second;
-  throw InputError(header.path.string(), "values of type '" + header.need("elementtype") + "' cannot be read",
-                   "write the labels as whole numbers");
+  header.refuse("elementtype", "such values cannot be read", "write the labels as whole numbers");
+}
+
+/// Numbers by the first of several names that the header has: the same thing has had several names.
+std::vector<double> any_numbers(const TextHeader& header, std::initializer_list<const char*> names,
+                                const std::vector<double>& otherwise) {
+  const auto name = header.first_of(names);
+  return name.empty() ? otherwise : header.numbers(name, otherwise.size());
 }
 
 ImageFrame read_frame(const TextHeader& header) {
-  if (header.numbers("ndims", 1)[0] != 3)
-    throw InputError(header.path.string(), "is an image of " + header.need("ndims") + " dimensions",
+  if (header.whole_numbers("ndims", 1)[0] != 3)
+    throw InputError(header.path.string(), "is an image of " + printable(header.need("ndims")) + " dimensions",
                      "give a three-dimensional image");
-  if (const auto* channels = header.find("elementnumberofchannels"); channels && *channels != "1")
-    throw InputError(header.path.string(), "holds " + *channels + " values for each voxel", "give one label for each");
-  if (!header.find("elementspacing"))
+  if (header.find("elementnumberofchannels") && header.whole_numbers("elementnumberofchannels", 1)[0] != 1)
+    header.refuse("elementnumberofchannels", "a voxel has several values", "give one label for each");
+  const auto spacing_name = header.first_of({"elementspacing", "elementsize"});
+  if (spacing_name.empty())
     throw InputError(header.path.string(), "states no voxel spacing: no ElementSpacing",
                      "write the image again with its spacing");
-  // The same thing has had several names.
-  const auto any = [&](std::initializer_list<const char*> names, const std::vector<double>& otherwise) {
-    for (const char* name : names)
-      if (header.find(name)) return header.numbers(name, otherwise.size());
-    return otherwise;
-  };
-  const auto size = header.numbers("dimsize", 3), spacing = header.numbers("elementspacing", 3);
-  const auto axes = any({"transformmatrix", "rotation", "orientation"}, {1, 0, 0, 0, 1, 0, 0, 0, 1});
-  const auto origin = any({"offset", "position", "origin"}, {0, 0, 0});
+  const auto size = header.whole_numbers("dimsize", 3);
+  const auto spacing = header.spacings(spacing_name);
+  const auto axes = any_numbers(header, {"transformmatrix", "rotation", "orientation"}, {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  const auto origin = any_numbers(header, {"offset", "position", "origin"}, {0, 0, 0});
   std::array<Vec3<double>, 3> steps{};
   for (int a = 0; a < 3; ++a)
     for (int d = 0; d < 3; ++d) steps[a][d] = 1e-3 * spacing[a] * axes[3 * a + d];
-  return checked_frame(
-      {static_cast<std::int64_t>(size[0]), static_cast<std::int64_t>(size[1]), static_cast<std::int64_t>(size[2])},
-      steps, {{1e-3 * origin[0], 1e-3 * origin[1], 1e-3 * origin[2]}}, header.path);
+  return checked_frame({size[0], size[1], size[2]}, steps, {{1e-3 * origin[0], 1e-3 * origin[1], 1e-3 * origin[2]}},
+                       header.path);
 }
 
-std::string read_data(const TextHeader& header) {
-  const auto file = header.need("elementdatafile");
-  std::string bytes;
-  if (file == "LOCAL") {
-    bytes = header.rest;
-  } else if (file.starts_with("LIST") || file.find('%') != std::string::npos) {
-    throw InputError(header.path.string(), "its data lie in several files: " + file, "write it to a single file");
-  } else {
-    bytes = read_bytes(header.path.parent_path() / file);
+/// What HeaderSize says of a file of data: so many bytes come before them, or with -1 all but the data.
+std::int64_t foreign_header(const TextHeader& header, const std::filesystem::path& file, std::int64_t data_bytes) {
+  if (!header.find("headersize")) return 0;
+  const auto skip = header.whole_numbers("headersize", 1)[0];
+  if (skip < -1) header.refuse("headersize", "must be -1 or more", "correct it");
+  if (skip >= 0) return skip;
+  if (flag(header, "compresseddata", false) || !flag(header, "binarydata", true))
+    header.refuse("headersize", "-1 says where raw data begin, and these are not raw", "give the number of bytes");
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  // A file that is too short, or is none, is told by reading it.
+  return error ? 0 : std::max<std::int64_t>(0, static_cast<std::int64_t>(size) - data_bytes);
+}
+
+DataPlace data_place(const TextHeader& header, std::int64_t data_bytes) {
+  const auto& file = header.need("elementdatafile");
+  if (lower(file) == "local") {
+    if (header.find("headersize") && header.whole_numbers("headersize", 1)[0] > 0)
+      header.refuse("headersize", "the data follow this header, and no other one", "remove it");
+    return {header.path, header.data_offset};
   }
-  if (const auto* skip = header.find("headersize"); skip && *skip != "0")
-    throw InputError(header.path.string(), "HeaderSize = " + *skip + " cannot be read",
-                     "write the image without a foreign header before its data");
-  return flag(header, "compresseddata") ? decompressed(bytes, header.path) : bytes;
+  if (words(file)[0] == "LIST" || file.find('%') != std::string::npos)
+    header.refuse("elementdatafile", "its data lie in several files", "write it to a single file");
+  const auto path = header.path.parent_path() / file;
+  return {path, foreign_header(header, path, data_bytes)};
+}
+
+/// Compressed data end where the header says.
+void limit_compressed(const TextHeader& header, DataPlace& place) {
+  if (!header.find("compresseddatasize")) return;
+  const auto stated = header.whole_numbers("compresseddatasize", 1)[0];
+  if (stated < 0) header.refuse("compresseddatasize", "must be above zero", "remove it");
+  if (stated == 0) return;  // as some write it who do not know
+  std::error_code error;
+  const auto size = std::filesystem::file_size(place.file, error);
+  if (!error && static_cast<std::int64_t>(size) - place.offset < stated)
+    header.refuse("compresseddatasize",
+                  fmt::format("{} bytes of data are there", static_cast<std::int64_t>(size) - place.offset),
+                  "copy the file again, it seems to be cut off");
+  place.bytes = stated;
 }
 
 }  // namespace
@@ -94,8 +130,14 @@ std::string read_data(const TextHeader& header) {
 LabelImage read_metaimage(const std::filesystem::path& path) {
   const auto header = read_header(path);
   const auto frame = read_frame(header);
-  const bool big = flag(header, "binarydatabyteordermsb") || flag(header, "elementbyteordermsb");
-  return {frame, labels_from_bytes(read_data(header), value_type(header), big, frame.count(), path)};
+  const auto type = value_type(header);
+  const bool compressed_data = flag(header, "compresseddata", false);
+  auto place = data_place(header, frame.count() * bytes_of(type));
+  if (compressed_data) limit_compressed(header, place);
+  DataStream data(place, compressed_data ? Packing::deflated : Packing::raw);
+  if (!flag(header, "binarydata", true)) return {frame, read_labels_from_text(data, frame, path)};
+  const bool big = flag(header, "binarydatabyteordermsb", false) || flag(header, "elementbyteordermsb", false);
+  return {frame, read_labels(data, {.type = type, .big_endian = big}, frame, path)};
 }
 
 void write_metaimage(const LabelImage& image, const std::filesystem::path& path) {

@@ -1,32 +1,38 @@
 // NRRD as in its definition, teem.sourceforge.net/nrrd/format.html, for one three-dimensional scalar image.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <map>
 
 #include "tunica/base/error.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/imaging/header_file.hpp"
 #include "tunica/imaging/image_formats.hpp"
+#include "tunica/imaging/voxel_data.hpp"
 
 namespace tunica::imaging {
 
 namespace {
 
 TextHeader read_header(const std::filesystem::path& path) {
-  TextHeader header{path, {}, {}};
-  const std::string all = read_bytes(path);
-  if (!all.starts_with("NRRD")) throw InputError(path.string(), "is no NRRD file", "check how it was made");
-  std::size_t at = all.find('\n');
-  while (at != std::string::npos) {
-    const auto end = all.find('\n', ++at);
-    const auto line = trimmed(all.substr(at, end == std::string::npos ? end : end - at));
-    at = end;
-    if (line.empty()) break;  // the data follow
-    const auto colon = line.find(": ");
-    if (line[0] != '#' && colon != std::string::npos)
-      header.fields[lower(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
+  TextHeader header{.path = path};
+  HeaderLines lines(path);
+  if (!lines.next() || !lines.text().starts_with("NRRD"))
+    throw InputError(path.string(), "is no NRRD file", "check how it was made");
+  while (lines.next() && !lines.text().empty()) {
+    const auto& line = lines.text();
+    if (line[0] == '#') continue;
+    // `key:=value` holds what others noted in the file, `field: value` what describes the image.
+    const auto colon = line.find(':');
+    if (colon == std::string::npos)
+      throw InputError(fmt::format("{}:{}", path.string(), lines.number()),
+                       fmt::format("'{}' is no line of a NRRD header", printable(line)),
+                       "write `field: value`, and a blank line before the data");
+    if (line.substr(colon).starts_with(":=")) continue;
+    const auto name = lower(trimmed(line.substr(0, colon))), value = trimmed(line.substr(colon + 1));
+    if (!value.empty() || name != "content") header.add(name, value, lines.number());
   }
-  if (at != std::string::npos) header.rest = all.substr(at + 1);
+  header.data_offset = lines.offset();
   return header;
 }
 
@@ -46,8 +52,7 @@ ValueType value_type(const TextHeader& header) {
   }
   if (name.ends_with("_t")) name.resize(name.size() - 2);
   if (const auto found = types.find(name); found != types.end()) return found->second;
-  throw InputError(header.path.string(), "values of type '" + header.need("type") + "' cannot be read",
-                   "write the labels as whole numbers");
+  header.refuse("type", "such values cannot be read", "write the labels as whole numbers");
 }
 
 /// Which of the file's axes point against the patient axes.
@@ -60,82 +65,121 @@ Vec3<double> axis_signs(const TextHeader& header) {
     return {{1, 1, 1}};
   if (name == "right-anterior-superior" || name == "ras") return {{-1, -1, 1}};
   if (name == "left-anterior-superior" || name == "las") return {{1, -1, 1}};
-  throw InputError(header.path.string(), "its space '" + *space + "' is not known",
-                   "write it in left-posterior-superior or right-anterior-superior");
+  header.refuse("space", "this space is not known", "write it in left-posterior-superior or right-anterior-superior");
 }
 
-/// Metres in one unit of the space.
+/// Metres in one unit of the space, or of its axes where the file has no space. Without any they are mm.
 double length_unit(const TextHeader& header) {
-  const auto* units = header.find("space units");
-  if (!units || units->find("\"\"") != std::string::npos) return 1e-3;
-  const auto first = units->substr(0, units->find('"', 1) + 1);
-  if (first == "\"mm\"") return 1e-3;
-  if (first == "\"cm\"") return 1e-2;
-  if (first == "\"m\"") return 1;
-  throw InputError(header.path.string(), "its space units are " + *units, "write it in mm");
+  static const std::map<std::string, double> known = {
+      {"\"\"", 1e-3}, {"\"mm\"", 1e-3}, {"\"cm\"", 1e-2}, {"\"m\"", 1}, {"\"um\"", 1e-6}};
+  const auto name = header.first_of({"space units", "units"});
+  if (name.empty()) return 1e-3;
+  const auto units = words(header.need(name));
+  const auto found = known.find(units[0]);
+  if (found == known.end() || std::any_of(units.begin(), units.end(), [&](const auto& u) { return u != units[0]; }))
+    header.refuse(name, "lengths are in \"mm\", \"cm\", \"m\" or \"um\", the same along each axis", "write it in mm");
+  return found->second;
+}
+
+/// Centre of the first voxel along the axes of an image that has no directions, from `axis mins`. Voxels are cells
+/// unless the file says that they are points, and a cell begins half a spacing before its centre.
+std::vector<double> origin_from_axes(const TextHeader& header, const std::vector<double>& spacings) {
+  if (header.find("space origin"))
+    header.refuse("axis mins", "the file gives a space origin as well", "remove one of them");
+  auto origin = header.numbers("axis mins", 3);
+  std::vector<std::string> centers(3, "cell");
+  if (const auto name = header.first_of({"centers", "centerings"}); !name.empty()) {
+    centers = words(lower(header.need(name)));
+    if (centers.size() != 3) header.refuse(name, "must be three of cell, node, ???", "correct it");
+  }
+  for (int a = 0; a < 3; ++a)
+    if (centers[a] != "node") origin[a] += 0.5 * spacings[a];
+  return origin;
 }
 
 ImageFrame read_frame(const TextHeader& header) {
-  if (header.numbers("dimension", 1)[0] != 3)
-    throw InputError(header.path.string(), "is an image of " + header.need("dimension") + " dimensions",
+  if (header.whole_numbers("dimension", 1)[0] != 3)
+    throw InputError(header.path.string(), "is an image of " + printable(header.need("dimension")) + " dimensions",
                      "give a three-dimensional image of one value each");
-  const auto sizes = header.numbers("sizes", 3);
+  const auto sizes = header.whole_numbers("sizes", 3);
   const auto signs = axis_signs(header);
   const double unit = length_unit(header);
   std::vector<double> columns(9, 0), origin(3, 0);
+  if (header.find("space origin")) origin = header.numbers("space origin", 3);
   if (header.find("space directions")) {
     columns = header.numbers("space directions", 9);
+    if (header.find("axis mins"))
+      header.refuse("axis mins", "the file gives space directions as well", "give a space origin in its place");
   } else if (header.find("spacings")) {
-    const auto spacings = header.numbers("spacings", 3);
+    const auto spacings = header.spacings("spacings");
     for (int a = 0; a < 3; ++a) columns[4 * a] = spacings[a];
+    if (header.find("axis mins")) origin = origin_from_axes(header, spacings);
   } else {
     throw InputError(header.path.string(), "states no voxel spacing: neither 'space directions' nor 'spacings'",
                      "write the image again with its spacing");
   }
-  if (header.find("space origin")) origin = header.numbers("space origin", 3);
   std::array<Vec3<double>, 3> steps{};
   Point first{};
   for (int d = 0; d < 3; ++d) {
     for (int a = 0; a < 3; ++a) steps[a][d] = unit * signs[d] * columns[3 * a + d];
     first[d] = unit * signs[d] * origin[d];
   }
-  return checked_frame(
-      {static_cast<std::int64_t>(sizes[0]), static_cast<std::int64_t>(sizes[1]), static_cast<std::int64_t>(sizes[2])},
-      steps, first, header.path);
+  return checked_frame({sizes[0], sizes[1], sizes[2]}, steps, first, header.path);
 }
 
-/// The data as they lie in the file, beside it or after the header.
-std::string stored_data(const TextHeader& header) {
-  for (const char* skip : {"line skip", "byte skip", "lineskip", "byteskip"})
-    if (const auto* value = header.find(skip); value && *value != "0")
-      throw InputError(header.path.string(), fmt::format("'{}: {}' cannot be read", skip, *value),
-                       "write the image without a foreign header before its data");
-  const auto* file = header.find("data file");
-  if (!file) file = header.find("datafile");
-  if (!file) return header.rest;
-  if (file->starts_with("LIST") || words(*file).size() != 1)
-    throw InputError(header.path.string(), "its data lie in several files: " + *file, "write it to a single file");
-  return read_bytes(header.path.parent_path() / *file);
+/// How many lines or bytes of the data file come before the data.
+std::int64_t skipped(const TextHeader& header, std::initializer_list<const char*> names, std::int64_t least) {
+  const auto name = header.first_of(names);
+  if (name.empty()) return 0;
+  const auto value = header.whole_numbers(name, 1)[0];
+  if (value < least) header.refuse(name, fmt::format("must be at least {}", least), "correct it");
+  return value;
 }
 
-std::vector<std::int16_t> labels_from_text(const std::string& text, std::int64_t count,
-                                           const std::filesystem::path& path) {
-  const auto values = words(text);
-  if (std::ssize(values) < count)
-    throw InputError(path.string(), fmt::format("holds {} values, its size asks for {}", values.size(), count),
-                     "copy the file again, it seems to be cut off");
-  std::vector<std::int16_t> labels;
-  for (std::int64_t i = 0; i < count; ++i) {
-    char* end = nullptr;
-    const double value = std::strtod(values[i].c_str(), &end);
-    labels.push_back(label_from_value(*end == '\0' ? value : std::nan(""), i, path));
-  }
-  return labels;
+DataPlace data_place(const TextHeader& header) {
+  const auto name = header.first_of({"data file", "datafile"});
+  if (name.empty()) return {header.path, header.data_offset};
+  const auto& file = header.need(name);
+  const auto parts = words(file);
+  if (parts[0] == "LIST" || (parts.size() >= 4 && parts[0].find('%') != std::string::npos))
+    header.refuse(name, "its data lie in several files", "write it to a single file");
+  return {header.path.parent_path() / file, 0};
+}
+
+/// Puts `place` after the lines that are skipped.
+void skip_lines(DataPlace& place, std::int64_t lines, const TextHeader& header) {
+  if (lines == 0) return;
+  DataStream data(place, Packing::raw);
+  for (char c = 0; lines > 0 && data.read(&c, 1) == 1; ++place.offset) lines -= c == '\n' ? 1 : 0;
+  if (lines > 0)
+    header.refuse(header.first_of({"line skip", "lineskip"}), fmt::format("the data file has {} lines less", lines),
+                  "correct it");
+}
+
+/// Puts the data of a file that says `byte skip: -1`: at its end.
+void place_at_end(DataPlace& place, std::int64_t bytes) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(place.file, none);
+  // A file that is too short, or is none, is told by reading it.
+  if (!none && static_cast<std::int64_t>(size) > bytes + place.offset)
+    place.offset = static_cast<std::int64_t>(size) - bytes;
 }
 
 bool big_endian(const TextHeader& header, ValueType type) {
-  if (type == ValueType::int8 || type == ValueType::uint8) return false;
-  return lower(header.need("endian")) == "big";
+  if (bytes_of(type) == 1) return false;
+  const auto order = lower(header.need("endian"));
+  if (order != "big" && order != "little") header.refuse("endian", "must be little or big", "correct it");
+  return order == "big";
+}
+
+enum class Encoding { raw, gzip, text };
+
+Encoding encoding_of(const TextHeader& header) {
+  const auto name = lower(header.need("encoding"));
+  if (name == "raw") return Encoding::raw;
+  if (name == "gzip" || name == "gz") return Encoding::gzip;
+  if (name == "ascii" || name == "text" || name == "txt") return Encoding::text;
+  header.refuse("encoding", "this encoding cannot be read", "write it with encoding raw, gzip or ascii");
 }
 
 }  // namespace
@@ -144,15 +188,17 @@ LabelImage read_nrrd(const std::filesystem::path& path) {
   const auto header = read_header(path);
   const auto frame = read_frame(header);
   const auto type = value_type(header);
-  const auto encoding = lower(header.need("encoding"));
-  if (encoding == "ascii" || encoding == "text" || encoding == "txt")
-    return {frame, labels_from_text(stored_data(header), frame.count(), path)};
-  const bool zipped = encoding == "gzip" || encoding == "gz";
-  if (!zipped && encoding != "raw")
-    throw InputError(path.string(), "its encoding '" + encoding + "' cannot be read",
-                     "write it with encoding raw, gzip or ascii");
-  const auto bytes = zipped ? decompressed(stored_data(header), path) : stored_data(header);
-  return {frame, labels_from_bytes(bytes, type, big_endian(header, type), frame.count(), path)};
+  const auto encoding = encoding_of(header);
+  auto place = data_place(header);
+  skip_lines(place, skipped(header, {"line skip", "lineskip"}, 0), header);
+  // -1 says of raw data that they are the end of the file.
+  const auto bytes = skipped(header, {"byte skip", "byteskip"}, encoding == Encoding::raw ? -1 : 0);
+  if (bytes == -1) place_at_end(place, frame.count() * bytes_of(type));
+  DataStream data(place, encoding == Encoding::gzip ? Packing::deflated : Packing::raw);
+  if (bytes > 0 && data.skip(bytes) < bytes)
+    header.refuse(header.first_of({"byte skip", "byteskip"}), "there are fewer bytes", "correct it");
+  if (encoding == Encoding::text) return {frame, read_labels_from_text(data, frame, path)};
+  return {frame, read_labels(data, {.type = type, .big_endian = big_endian(header, type)}, frame, path)};
 }
 
 void write_nrrd(const LabelImage& image, const std::filesystem::path& path) {

@@ -1,0 +1,37 @@
+// Meshes from Gmsh files and SimVascular folders.
+#include "fuzz/target.hpp"
+#include "tunica/mesh_io/gmsh.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
+
+namespace tunica::fuzz {
+
+namespace fs = std::filesystem;
+using mesh::RegionKind;
+
+const char* const target_name = "mesh";
+
+/// Folders whose volume, or whose inlet, the inputs replace.
+void start_target() {
+  fs::copy("sv", "volume", fs::copy_options::recursive);
+  fs::copy("sv", "face", fs::copy_options::recursive);
+}
+
+void read_one(const fs::path& file, const std::string& kind) {
+  mesh_io::GmshOptions gmsh{.metres_per_unit = 1e-3,
+                            .regions = {{"lumen", RegionKind::lumen}, {"wall", RegionKind::wall}}};
+  mesh_io::SimVascularOptions folder{.metres_per_unit = 1e-3};
+  if (kind == "gmsh_fields") gmsh.fields = {"e1"};
+  if (kind.starts_with("gmsh")) {
+    mesh_io::read_gmsh(file, gmsh);
+  } else if (kind == "volume") {
+    fs::copy_file(file, "volume/mesh-complete.mesh.vtu", fs::copy_options::overwrite_existing);
+    folder.regions = mesh_io::NamedRegions{"region", {{1, "first"}, {2, "second"}}};
+    mesh_io::read_simvascular("volume", RegionKind::wall, "wall", folder);
+  } else {
+    fs::copy_file(file, "face/mesh-surfaces/inlet.vtp", fs::copy_options::overwrite_existing);
+    folder.face_arrays = {{"inlet", {"thickness"}}};
+    mesh_io::read_simvascular("face", RegionKind::lumen, "lumen", folder);
+  }
+}
+
+}  // namespace tunica::fuzz
