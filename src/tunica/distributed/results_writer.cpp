@@ -8,6 +8,7 @@
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkFloatArray.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -184,6 +185,8 @@ struct ResultsWriter::Implementation {
         if (in_region(a, r)) add_cells(piece, a);
       const auto path = options.directory / fmt::format("{}_{}.vtu", file_stem(mesh.regions[r].name, step), rank);
       write_grid(piece.grid, path, options.compress);
+      // VTK has noted ranges there and would write them next time: files of a continued run would not be the same.
+      piece.grid->GetPoints()->GetData()->GetInformation()->Clear();
       piece.grid->GetPointData()->Initialize();
       piece.grid->GetCellData()->Initialize();
     }
