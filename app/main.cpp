@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "commands.hpp"
+#include "output.hpp"
 #include "tunica/base/error.hpp"
 #include "version.hpp"
 
@@ -16,9 +17,7 @@ int fail(int code, const std::exception& error) {
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Fluid-structure interaction in aortic dissection.", "tunica");
   app.set_version_flag("--version", tunica::app::version());
   app.require_subcommand(1);
@@ -53,4 +52,11 @@ int main(int argc, char** argv) {
     return fail(solver_failure, error);
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tunica::app::let_writes_beyond_limits_fail();
+  return tunica::app::with_standard_output(run(argc, argv));
 }

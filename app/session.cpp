@@ -7,6 +7,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/launcher.hpp"
 #include "tunica/parallel/petsc.hpp"
 
 namespace tunica::app {
@@ -27,6 +28,7 @@ int report(int code, const std::exception& error) {
 int in_session(const std::function<int()>& action) {
   const parallel::Session session;
   try {
+    parallel::refuse_another_launcher(parallel::size(MPI_COMM_WORLD));
     return action();
   } catch (const InputError& error) {
     return report(input_error, error);

@@ -22,8 +22,12 @@ class CsvTable {
   CsvTable(const std::filesystem::path& file, std::vector<std::string> columns,
            std::optional<std::int64_t> continue_from);
 
-  /// Adds a line, which is on disk when the call returns. Throws SolverError when that fails.
+  /// Adds a line, whole or not at all. Throws SolverError when that fails: also when the file was moved or removed
+  /// meanwhile.
   void append(std::int64_t step, std::span<const double> values);
+
+  /// Brings all lines to the disk. Throws SolverError when that fails.
+  void sync() const;
 
  private:
   std::filesystem::path file_;
@@ -53,6 +57,8 @@ class Histories {
             const std::vector<bc::Outlet>& outlets, std::optional<std::int64_t> continue_from);
 
   void append(const StepHistory& step, const std::vector<bc::Outlet>& outlets);
+  /// As CsvTable::sync, for all of them.
+  void sync() const;
 
   static std::vector<std::string> files() {
     return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv"};

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <ctime>
 #include <system_error>
+#include <utility>
 
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -21,6 +22,13 @@ namespace {
 constexpr const char* erase_line = "\r\033[K";
 
 std::string time_stamp() { return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr))); }
+
+/// Error number, 0: none. Unlike fmt::print it does not throw: no log is worth a run.
+int put(std::FILE* stream, const std::string& text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
+  return written ? 0 : errno;
+}
 
 }  // namespace
 
@@ -38,6 +46,7 @@ Log::Log(MPI_Comm comm, const Targets& targets) {
     screen_ = targets.screen;
     on_terminal_ = screen_ != nullptr && is_terminal(screen_);
     if (targets.file.empty()) return;
+    name_ = targets.file;
     file_ = std::fopen(targets.file.c_str(), "a");
     if (file_ == nullptr)
       throw InputError(targets.file.string(), fmt::format("the log file cannot be written ({})", std::strerror(errno)),
@@ -48,31 +57,37 @@ Log::Log(MPI_Comm comm, const Targets& targets) {
 
 Log::~Log() {
   status("");
-  if (file_ != nullptr) std::fclose(file_);
+  if (file_ != nullptr && std::fclose(std::exchange(file_, nullptr)) != 0) give_up_file(errno);
 }
 
 void Log::info(std::string_view text) { write("info", text); }
 void Log::warning(std::string_view text) { write("warning", text); }
 void Log::error(std::string_view text) { write("error", text); }
 
+void Log::write_to_screen(std::string_view kind, std::string_view text) {
+  if (screen_ == nullptr) return;
+  const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
+  put(screen_, fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_));
+}
+
 void Log::write(std::string_view kind, std::string_view text) {
-  if (screen_ != nullptr) {
-    const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
-    const char* erase = status_.empty() ? "" : erase_line;
-    fmt::print(screen_, "{}{}{}\n{}", erase, prefix, text, status_);
-    std::fflush(screen_);
-  }
-  if (file_ != nullptr) {
-    fmt::print(file_, "{} {:7} {}\n", time_stamp(), kind, text);
-    std::fflush(file_);
-  }
+  write_to_screen(kind, text);
+  if (file_ == nullptr) return;
+  if (const int error = put(file_, fmt::format("{} {:7} {}\n", time_stamp(), kind, text)); error != 0)
+    give_up_file(error);
+}
+
+void Log::give_up_file(int error) {
+  if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
+  write_to_screen("warning", fmt::format("the log {} cannot be written any more ({}); the lines from here on are "
+                                         "missing in it, and the run goes on",
+                                         name_.string(), std::strerror(error)));
 }
 
 void Log::status(std::string_view line) {
   if (screen_ == nullptr || !on_terminal_ || (line.empty() && status_.empty())) return;
   status_ = line;
-  fmt::print(screen_, "{}{}", erase_line, status_);
-  std::fflush(screen_);
+  put(screen_, fmt::format("{}{}", erase_line, status_));
 }
 
 int Log::columns() const {

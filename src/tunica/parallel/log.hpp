@@ -15,7 +15,8 @@ namespace tunica::parallel {
 bool is_terminal(std::FILE* stream);
 
 /// All ranks call alike and rank 0 speaks; a finding of another rank travels to rank 0 first. Lines reach the file at
-/// once, so that a run that dies leaves its log.
+/// once, so that a run that dies leaves its log. A log that cannot be written any more (the disk is full) does not end
+/// the run: what counts are the results, whose writers throw. That is said once, on the screen.
 class Log {
  public:
   struct Targets {
@@ -44,7 +45,10 @@ class Log {
 
  private:
   void write(std::string_view kind, std::string_view text);
+  void write_to_screen(std::string_view kind, std::string_view text);
+  void give_up_file(int error);
 
+  std::filesystem::path name_;
   std::FILE* screen_ = nullptr;  // both null on ranks other than 0
   std::FILE* file_ = nullptr;
   bool on_terminal_ = false;

@@ -18,6 +18,8 @@
 #include "tunica/coupling/prestress.hpp"
 #include "tunica/coupling/wall_model.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/submesh.hpp"
@@ -134,6 +136,7 @@ class PrestressRun {
   std::string text_;
   case_file::Case case_;
   fs::path folder_;
+  files::FolderLock lock_;  ///< rank 0
   std::optional<parallel::Log> log_;
   double started_ = MPI_Wtime();
 
@@ -156,6 +159,7 @@ PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::
   folder_ = request.directory.value_or(settings().output);
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "prestress.log", .screen = screen});
+  if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
   if (!case_.title.empty()) log_->info(case_.title);
   for (const auto& line : whole_.report) log_->info(line);
   for (const auto& line : whole_.warnings) log_->warning(line);
@@ -200,17 +204,15 @@ void PrestressRun::read() {
 
 void PrestressRun::prepare_folder() {
   parallel::on_root(comm_, [&] {
+    lock_ = files::FolderLock(folder_);
     if (!request_.overwrite && !request_.keep_flow && fs::exists(folder_ / "prestress.log"))
       throw InputError(folder_.string(), "holds a prestress already",
                        "replace it by --overwrite, find it anew with the flow that is there by --keep-flow, or name "
                        "another folder by --output");
     if (request_.keep_flow && !fs::exists(folder_ / "flow.checkpoint"))
       throw InputError(folder_.string(), "holds no flow.checkpoint that could be kept", "leave out --keep-flow");
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error)
-      throw InputError(folder_.string(), fmt::format("cannot be made ({})", error.message()),
-                       "name a folder that can be created and written");
+    files::try_outputs(folder_, {"prestress.log", report_file, "wall.vtu", "start.checkpoint", "flow.checkpoint",
+                                 "boundary.yaml", "fixed_point.csv"});
     for (const char* file : {"prestress.log", report_file, "wall.vtu", "start.checkpoint"}) fs::remove(folder_ / file);
   });
 }
