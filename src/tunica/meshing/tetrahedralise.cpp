@@ -58,6 +58,14 @@ std::vector<geometry::Point> places_in_cavities(const SurfaceComplex& complex, L
   return places;
 }
 
+void leave_out(tetgenio& in, const std::vector<geometry::Point>& places) {
+  in.numberofholes = static_cast<int>(places.size());
+  if (places.empty()) return;
+  in.holelist = new double[3 * places.size()];
+  for (std::size_t h = 0; h < places.size(); ++h)
+    for (int d = 0; d < 3; ++d) in.holelist[3 * h + d] = to_tetgen * places[h][d];
+}
+
 /// The part of the complex around one label, and the number of each of its points in the complex.
 struct Hull {
   tetgenio input;
@@ -97,12 +105,7 @@ void fill_in(Hull& hull, const SurfaceComplex& complex, Label label, const std::
     add_facet(in.facetlist[f], facets[f]);
     in.facetmarkerlist[f] = markers[f];
   }
-  const auto cavities = places_in_cavities(complex, label);
-  if (cavities.empty()) return;
-  in.numberofholes = static_cast<int>(cavities.size());
-  in.holelist = new double[3 * cavities.size()];
-  for (std::size_t h = 0; h < cavities.size(); ++h)
-    for (int d = 0; d < 3; ++d) in.holelist[3 * h + d] = to_tetgen * cavities[h][d];
+  leave_out(in, places_in_cavities(complex, label));
 }
 
 const char* reason(int code) {

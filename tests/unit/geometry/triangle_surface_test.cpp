@@ -140,7 +140,12 @@ TEST(CutEnd, TakesOffJustWhatLiesBeyondThePlane) {
     ASSERT_EQ(loops.size(), 2U);
     // The mantle below a sloping plane is that below the plane across, by symmetry.
     EXPECT_NEAR(area(cut) / area(surface), 24.0 / 30, 1e-3);
-    for (const auto& p : cut.points) EXPECT_LT(dot(p - Point{{0, 0, 24e-3}}, normal), 1e-15);
+    for (const auto& p : cut.points) {
+      EXPECT_LT(dot(p - Point{{0, 0, 24e-3}}, normal), 1e-15);
+      // New points lie where the edges pass the plane: on the mantle of the prism.
+      EXPECT_LT(std::hypot(p[0], p[1]), radius + 1e-12);
+      EXPECT_GT(std::hypot(p[0], p[1]), radius * std::cos(M_PI / 48) - 1e-12);
+    }
     std::size_t in_plane = 0;
     for (const auto& p : cut.points) in_plane += std::abs(dot(p - Point{{0, 0, 24e-3}}, normal)) < 1e-15;
     EXPECT_GE(in_plane, 48U);

@@ -65,6 +65,27 @@ TEST(LayerHeights, GrowByTheirFactorFromTheWallInwards) {
   }
 }
 
+TEST(LayerHeights, StayInThePlanesOfObliqueEnds) {
+  auto before = test::block_vessel(duct);
+  for (auto& x : before.points) x[2] += 0.4 * x[0];
+  auto mesh = before;
+  add_boundary_layers(mesh, {.layers = 2, .thickness = 0.2e-3, .growth = 1.2});
+  const Stacks stacks(before, mesh, 2);
+  int in_ends = 0;
+  for (std::size_t k = 0; k < stacks.nodes.size(); ++k) {
+    const auto height = [&](int level) {
+      const auto& x = mesh.points[static_cast<std::size_t>(stacks.at(k, level))];
+      return x[2] - 0.4 * x[0];
+    };
+    if (std::abs(height(0) - 3e-3) < 2.9e-3) continue;
+    ++in_ends;
+    EXPECT_NEAR(height(1), height(0), 1e-15);
+    EXPECT_NEAR(height(2), height(0), 1e-15);
+  }
+  EXPECT_EQ(in_ends, 2 * 4 * 7);
+  EXPECT_NEAR(test::volume(mesh, geometry::lumen_label) / test::volume(before, geometry::lumen_label), 1, 1e-12);
+}
+
 TEST(LayerHeights, AreBoundedByTheEdgesNearby) {
   auto mesh = test::block_vessel(duct);
   // Edges of 1 mm: at most 0.6 mm.
