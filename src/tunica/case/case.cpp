@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tunica/bc/waveform.hpp"
+#include "tunica/case/keys.hpp"
 
 namespace tunica::case_file {
 
@@ -70,6 +71,7 @@ Schema<WallMesh> wall_mesh_schema() {
           if (const auto [other, is_new] = known.emplace(number, name); !is_new)
             problems.add("regions." + name, fmt::format("is {}, as is {}", number, other->second),
                          "give every region its own number");
+        check_keys("regions", m.regions, "region", problems);
       });
 }
 
@@ -92,6 +94,7 @@ Schema<GmshMesh> gmsh_schema() {
                                           [](const auto& r) { return r.second == mesh::RegionKind::lumen; });
         if (lumens > 1)
           problems.add("regions", fmt::format("names {} lumens", lumens), "join them to one physical volume");
+        check_keys("regions", gmsh.regions, "region", problems);
       });
 }
 
@@ -212,6 +215,7 @@ void check_case(const Case& c, Problems& problems) {
                    "remove it, or choose another analysis");
   }
   check_chain(c, problems);
+  check_keys("compare", c.compare, "compared law", problems);
   if (c.prestress && c.solves_wall()) {
     if (coupled && !c.prestress->flow)
       problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",
