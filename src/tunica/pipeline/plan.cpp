@@ -8,6 +8,7 @@
 #include "tunica/analysis/vessel.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -95,19 +96,22 @@ std::string from_folder(const std::string& path, const fs::path& folder) {
   return full.lexically_relative(base).string();
 }
 
+/// As a record can hold it: names of files need not be UTF-8.
+std::string recorded(const std::string& text) { return text::printable(text, std::string::npos); }
+
 Inputs inputs_of(const Chain& chain, const Stage& stage, const config::Document& document) {
   const fs::path folder = folder_of(chain, stage);
   const config::Origin origin{.name = (folder / stage.file).string(), .folder = folder};
   Inputs inputs;
   Fingerprints fingerprints;
   const auto add_file = [&](const std::string& path) {
-    if (const auto print = fingerprints.of(folder / path); !print.empty()) inputs.files[path] = print;
+    if (const auto print = fingerprints.of(folder / path); !print.empty()) inputs.files[recorded(path)] = print;
   };
   for (const auto& s : stage.settings(document, origin)) {
     if (!matters(stage, s.path)) continue;
     const bool file = s.kind == Kind::file || s.kind == Kind::folder || s.kind == Kind::path;
-    std::string& value = inputs.settings[s.path];
-    value = file ? from_folder(s.value, folder) : s.value;
+    const std::string value = file ? from_folder(s.value, folder) : s.value;
+    inputs.settings[s.path] = recorded(value);
     if (file) add_file(value);
   }
   if (stage.reads)
