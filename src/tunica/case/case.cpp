@@ -7,6 +7,7 @@
 
 #include "tunica/bc/waveform.hpp"
 #include "tunica/case/keys.hpp"
+#include "tunica/case/plausible.hpp"
 
 namespace tunica::case_file {
 
@@ -398,6 +399,7 @@ config::Parsed<Case> read_case(const std::filesystem::path& file) {
   config::Parsed<Case> parsed = parse(config::read_text(file), file, true);
   std::vector<Problem> problems = check_waveforms(parsed.value);
   if (!problems.empty()) throw InputError(std::move(problems));
+  for (auto& warning : implausible_values(parsed.value)) parsed.warnings.push_back(std::move(warning));
   return parsed;
 }
 

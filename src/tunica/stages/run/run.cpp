@@ -498,7 +498,10 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = case_file::parse_case(c.text, request.case_file);
   artifacts::name_faces(c.settings, c.mesh, comm);
-  c.outlets = artifacts::take_tuned_outlets(comm, c.settings);
+  std::vector<Problem> unusual;
+  c.outlets = artifacts::take_tuned_outlets(comm, c.settings, &unusual);
+  if (parallel::rank(comm) == 0)
+    for (const auto& warning : unusual) c.warnings.push_back(format(warning));
   return run_case(c, request, comm, screen);
 }
 
