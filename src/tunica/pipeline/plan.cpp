@@ -138,6 +138,17 @@ void compare(const Stage& stage, const fs::path& folder, Plan& p) {
   p.reason = fmt::format("inputs changed: {}{}", text_of(change), p.resume ? "; it goes on with what is there" : "");
 }
 
+/// The files of the stages, which are YAML, name the case file from their folders and these from its own.
+void check_paths(const Chain& chain, std::vector<Problem>& problems) {
+  const fs::path file = fs::absolute(chain.file).lexically_normal(), folder = file.parent_path(),
+                 output = fs::absolute(chain.output).lexically_normal();
+  for (const auto& path : {file.lexically_relative(output), output.lexically_relative(folder)})
+    if (text::valid_utf8(path.string()) < path.string().size())
+      problems.push_back({text::printable(path.string(), 400),
+                          "is a path that is not UTF-8, and the files of the stages have to name it",
+                          "rename the file or folder, or choose another folder by --output"});
+}
+
 }  // namespace
 
 Chain read_chain(const fs::path& file, const std::optional<fs::path>& directory, std::vector<Problem>& warnings) {
@@ -149,6 +160,7 @@ Chain read_chain(const fs::path& file, const std::optional<fs::path>& directory,
   chain.settings = std::move(parsed.value);
   chain.output = directory.value_or(chain.settings.output.directory);
   std::vector<Problem> problems;
+  check_paths(chain, problems);
   if (chain.settings.mesh) check_faces_to_come(chain, problems);
   check_fibres(chain.settings, problems);
   check_post(chain.settings, problems);
