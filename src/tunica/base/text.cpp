@@ -83,7 +83,7 @@ bool is_control(char c) {
 std::string as_latin(unsigned b) {
   if (b < 0xA0) return "";
   const char letter[] = {static_cast<char>(0xC0 | (b >> 6)), static_cast<char>(0x80 | (b & 0x3F)), 0};
-  return fmt::format(", which is '{}' in Latin-1 and Windows-1252", letter);
+  return fmt::format("; in Latin-1 and Windows-1252 it is '{}'", letter);
 }
 
 }  // namespace

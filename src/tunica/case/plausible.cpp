@@ -29,7 +29,7 @@ struct Usual {
 
 constexpr Usual usual_flow{"flow", dimension::volume_flow,  0.01 * ml_per_s, 1000 * ml_per_s, 1 * ml_per_s, ml_per_s,
                            "ml/s", "0.01 ml/s to 1000 ml/s"};
-constexpr Usual usual_pressure{"pressure", dimension::pressure, 1 * mmHg, 400 * mmHg, 5 * mmHg, mmHg,
+constexpr Usual usual_pressure{"pressure", dimension::pressure, 1 * mmHg, 400 * mmHg, 40 * mmHg, mmHg,
                                "mmHg",     "1 mmHg to 400 mmHg"};
 constexpr Usual usual_velocity{"velocity", dimension::velocity, 1e-5, 10, 0.01, 1, "m/s", "1e-5 m/s to 10 m/s"};
 constexpr Usual usual_traction{"traction", dimension::pressure, 0, 400 * mmHg, 0, mmHg, "mmHg", "up to 400 mmHg"};
@@ -37,13 +37,14 @@ constexpr Usual usual_traction{"traction", dimension::pressure, 0, 400 * mmHg, 0
 constexpr double shortest_period = 0.2, longest_period = 3;                  // s: 300 and 20 beats a minute
 constexpr double shortest_time_constant = 0.01, longest_time_constant = 30;  // s
 constexpr double highest_mean_pressure = 300 * mmHg;
-constexpr double usual_resistance = 1e12;  // Pa s/m^3, as the keys have it
-constexpr int fewest_steps = 20;           // of a period
-constexpr double least_part = 1e-3;        // of a table that does not repeat, which the run should come to
+constexpr double usual_resistance = 1e12;   // Pa s/m^3, as the keys have it
+constexpr double usual_capacitance = 1e-7;  // m^3/Pa, likewise
+constexpr double longest_step = 0.02;       // s: more is warned of as it is read
+constexpr int fewest_steps = 20;            // of a period
+constexpr double least_part = 1e-3;         // of a table that does not repeat, which the run should come to
 
 std::string meant(double in_unit, const config::Dimension& due, double low, double high) {
-  const std::string digits = fmt::format("{:.6g} {}", in_unit, config::si_unit(due));
-  const std::string likely = config::likely_meant(digits, due, low, high);
+  const std::string likely = config::likely_meant(fmt::format("{:.6g}", in_unit), due, low, high);
   return likely.empty() ? "check the unit and `scale`" : fmt::format("a slip of the unit? {} would be usual", likely);
 }
 
@@ -84,6 +85,7 @@ class Checker {
     for (const auto& [face, condition] : case_.boundary)
       if (const auto* rcr = std::get_if<bc::Rcr>(&condition)) {
         const double constant = rcr->distal * rcr->capacitance;
+        if (rcr->distal > usual_resistance || rcr->capacitance > usual_capacitance) continue;
         if (constant < shortest_time_constant || constant > longest_time_constant)
           warnings.push_back({"boundary." + face,
                               fmt::format("the Windkessel empties with a time constant (distal x capacitance) of "
@@ -120,7 +122,7 @@ class Checker {
                           fmt::format("the period of the table is {:.4g} s; {:.2g} s to {:.2g} s is usual", seconds,
                                       shortest_period, longest_period),
                           meant(seconds / unit, dimension::time, shortest_period, longest_period)});
-    else if (case_.time && seconds < fewest_steps * case_.time->step)
+    else if (case_.time && case_.time->step <= longest_step && seconds < fewest_steps * case_.time->step)
       warnings.push_back({where,
                           fmt::format("a period of {:.4g} s has {:.3g} steps of {:.4g} s; more than {} are usual",
                                       seconds, seconds / case_.time->step, case_.time->step, fewest_steps),
