@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tunica/base/text.hpp"
 #include "tunica/case/plausible.hpp"
 #include "tunica/mesh/boundary.hpp"
 
@@ -31,6 +32,22 @@ void check_flow(const bc::Flow& flow, double face_area, const std::string& where
                    "it; {:.0e} m/s to {:.0f} m/s is usual",
                    1e6 * largest, 1e6 * face_area, velocity, slowest, fastest),
        "a slip of the unit of the flow, or of `length_unit`?"});
+}
+
+/// A velocity that leads out of the vessel where blood usually enters.
+void check_velocity(const bc::Velocity& velocity, const mesh::MeshData& data, const mesh::FaceData& face,
+                    std::vector<Problem>& warnings) {
+  if (text::lower(face.name).find("inlet") == std::string::npos) return;
+  double outward = 0;
+  for (const auto& t : face.triangles) outward += dot(velocity.value, mesh::area_vector(data.points, t));
+  outward *= bc::make_waveform(velocity.course).mean();
+  if (outward > 0)
+    warnings.push_back(
+        {"boundary." + face.name,
+         fmt::format("the velocity carries {:.4g} ml/s out of the vessel on average; blood usually flows "
+                     "in there",
+                     1e6 * outward),
+         "the wrong sign?"});
 }
 
 struct UsualArray {
@@ -74,6 +91,7 @@ std::vector<Problem> implausible_on_faces(const case_file::Case& c, const mesh::
       if (face.name != name) continue;
       if (const auto* flow = std::get_if<bc::Flow>(&condition))
         check_flow(*flow, area(data, face), "boundary." + name, warnings);
+      if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) check_velocity(*velocity, data, face, warnings);
       if (const auto* support = std::get_if<bc::Support>(&condition)) check_support(*support, name, data, warnings);
     }
   return warnings;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tunica/base/text.hpp"
 #include "tunica/case/case.hpp"
@@ -36,7 +37,8 @@ constexpr Usual usual_traction{"traction", dimension::pressure, 0, 400 * mmHg, 0
 
 constexpr double shortest_period = 0.2, longest_period = 3;                  // s: 300 and 20 beats a minute
 constexpr double shortest_time_constant = 0.01, longest_time_constant = 30;  // s
-constexpr double highest_mean_pressure = 300 * mmHg;
+constexpr double highest_mean_pressure = 300 * mmHg, arterial_pressure = 40 * mmHg;
+constexpr double least_outflow = 0.1 * ml_per_s;
 constexpr double usual_resistance = 1e12;   // Pa s/m^3, as the keys have it
 constexpr double usual_capacitance = 1e-7;  // m^3/Pa, likewise
 constexpr double longest_step = 0.02;       // s: more is warned of as it is read
@@ -93,7 +95,7 @@ class Checker {
                                           constant, shortest_time_constant, longest_time_constant),
                               "a slip of the unit of `distal` or `capacitance`?"});
       }
-    pressure_of_inflow();
+    resistances();
   }
 
  private:
@@ -148,48 +150,76 @@ class Checker {
                         "(in a .flow file: outflow)"});
   }
 
+  /// Is it a lumen face, as far as its name tells before the mesh is read?
+  static bool may_be_opening(const std::string& face) { return !text::lower(face).starts_with("wall"); }
+
   /// Do all openings without a given flow resist what flows out?
   bool only_outlets_besides() const {
     bool any = false;
     for (const auto& [face, condition] : case_.boundary) {
-      if (std::holds_alternative<bc::Pressure>(condition) || std::holds_alternative<bc::Traction>(condition) ||
-          std::holds_alternative<bc::Velocity>(condition))
-        return false;
+      const bool load =
+          std::holds_alternative<bc::Pressure>(condition) || std::holds_alternative<bc::Traction>(condition);
+      if (std::holds_alternative<bc::Velocity>(condition) || (load && may_be_opening(face))) return false;
       any = any || std::holds_alternative<bc::Resistance>(condition) || std::holds_alternative<bc::Rcr>(condition);
     }
     return any;
   }
 
-  /// Mean pressure at outlets in parallel that take up the mean inflow.
-  void pressure_of_inflow() {
-    if (!only_outlets_besides()) return;
-    double inflow = 0, conductance = 0, driven = 0;
+  /// Outlets in parallel: a pressure P drives P * conductance - driven.
+  struct Parallel {
+    double conductance = 0, driven = 0;
+  };
+
+  /// None where a pattern stands for any number of outlets, or an outlet does not resist. What is beyond the usual has
+  /// been warned of as it was read.
+  std::optional<Parallel> parallel_outlets() const {
+    Parallel all;
     for (const auto& [face, condition] : case_.boundary) {
       double resistance = 0, distal_pressure = 0;
-      if (const auto* flow = std::get_if<bc::Flow>(&condition)) {
-        inflow += bc::inflow(*flow).mean();
-        continue;
-      }
       if (const auto* r = std::get_if<bc::Resistance>(&condition))
         resistance = r->resistance, distal_pressure = r->distal_pressure;
       else if (const auto* rcr = std::get_if<bc::Rcr>(&condition))
         resistance = rcr->proximal + rcr->distal, distal_pressure = rcr->distal_pressure;
       else
         continue;
-      // A pattern stands for any number of outlets; what is beyond the usual has been warned of as it was read.
-      if (is_pattern(face) || !(resistance > 0) || resistance > usual_resistance) return;
-      conductance += 1 / resistance;
-      driven += distal_pressure / resistance;
+      if (is_pattern(face) || !(resistance > 0) || resistance > usual_resistance) return std::nullopt;
+      all.conductance += 1 / resistance;
+      all.driven += distal_pressure / resistance;
     }
-    const double pressure = (inflow + driven) / conductance;
-    if (inflow > 0 && inflow < usual_flow.most && pressure > highest_mean_pressure)
+    return all.conductance > 0 ? std::optional(all) : std::nullopt;
+  }
+
+  /// Mean pressure that the mean inflow needs, or mean flow that a given pressure drives.
+  void resistances() {
+    const auto outlets = parallel_outlets();
+    if (!outlets) return;
+    double inflow = 0, pressure = 0;
+    bool flow_is_given = false;
+    for (const auto& [face, condition] : case_.boundary) {
+      flow_is_given = flow_is_given || std::holds_alternative<bc::Flow>(condition) ||
+                      std::holds_alternative<bc::Velocity>(condition);
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) inflow += bc::inflow(*flow).mean();
+      if (const auto* given = std::get_if<bc::Pressure>(&condition); given && may_be_opening(face))
+        pressure = std::max(pressure, bc::make_waveform(given->pressure).mean());
+    }
+    const double resistance = ml_per_s / outlets->conductance / mmHg;
+    const double needed = (inflow + outlets->driven) / outlets->conductance,
+                 driven = pressure * outlets->conductance - outlets->driven;
+    const char* remedy = "a slip of the unit of the resistances, or of the flow or pressure?";
+    if (only_outlets_besides() && inflow > 0 && inflow < usual_flow.most && needed > highest_mean_pressure)
       warnings.push_back(
           {"boundary",
-           fmt::format("a mean inflow of {:.4g} ml/s through the resistances of the outlets, {:.4g} "
-                       "mmHg s/ml in parallel, needs a mean pressure of {:.4g} mmHg; up to {:.0f} mmHg "
-                       "is usual",
-                       inflow / ml_per_s, ml_per_s / conductance / mmHg, pressure / mmHg, highest_mean_pressure / mmHg),
-           "a slip of the unit of the resistances or of the inflow?"});
+           fmt::format("a mean inflow of {:.4g} ml/s through the resistances of the outlets, {:.4g} mmHg "
+                       "s/ml in parallel, needs a mean pressure of {:.4g} mmHg; up to {:.0f} mmHg is usual",
+                       inflow / ml_per_s, resistance, needed / mmHg, highest_mean_pressure / mmHg),
+           remedy});
+    if (!flow_is_given && pressure > arterial_pressure && driven > 0 && driven < least_outflow)
+      warnings.push_back(
+          {"boundary",
+           fmt::format("a mean pressure of {:.4g} mmHg drives {:.3g} ml/s through the resistances of the "
+                       "outlets, {:.4g} mmHg s/ml in parallel; more than {:.1f} ml/s is usual",
+                       pressure / mmHg, driven / ml_per_s, resistance, least_outflow / ml_per_s),
+           remedy});
   }
 
   const Case& case_;

@@ -33,6 +33,22 @@ std::vector<std::string> openings_of(const geometry::ParametricDissection& shape
   return names;
 }
 
+/// Those of surfaces with a table, read and checked as the mesh will have them; none when they are not known yet.
+std::vector<std::string> openings_of(const meshing::SurfaceFiles& files) {
+  std::vector<std::string> names;
+  if (files.openings.empty()) return names;
+  const auto placed = geometry::read_opening_names(files.openings, files.metres_per_unit);
+  meshing::check_names(files.roles, placed);
+  for (const auto& opening : placed) names.push_back(opening.name);
+  return names;
+}
+
+std::vector<std::string> openings_of(const meshing::ImageGeometry& image) {
+  std::vector<std::string> names;
+  for (const auto& [name, opening] : image.surface.openings) names.push_back(name);
+  return names;
+}
+
 void check_region_names(const case_file::Case& c, std::vector<Problem>& problems) {
   const std::vector<std::string> known(meshing::wall_region_names.begin(), meshing::wall_region_names.end());
   std::set<std::pair<std::string, std::string>> named;
@@ -46,12 +62,13 @@ void check_region_names(const case_file::Case& c, std::vector<Problem>& problems
           {key + name, "the mesh will have no such region of the wall", "its regions: " + mesh::list_names(known)});
 }
 
-/// Faces of a mesh that is yet to be made are known for the idealised dissection only.
+/// Faces of a mesh that is yet to be made are known where its openings have names.
 void check_faces_to_come(const Chain& chain, std::vector<Problem>& problems) {
-  const auto* shape = std::get_if<geometry::ParametricDissection>(&chain.settings.mesh->geometry);
-  if (!shape) return;
+  const auto openings =
+      std::visit([](const auto& geometry) { return openings_of(geometry); }, chain.settings.mesh->geometry);
+  if (openings.empty()) return;
   std::vector<bc::BoundaryFace> faces;
-  for (const auto& name : openings_of(*shape)) {
+  for (const auto& name : openings) {
     faces.push_back({"lumen_" + name, bc::Field::lumen});
     faces.push_back({"wall_" + name, bc::Field::wall});
   }

@@ -97,6 +97,25 @@ TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWork) {
     EXPECT_EQ(printed().find("remeshing"), std::string::npos) << printed();
   }
   EXPECT_FALSE(fs::exists(folder_ / "mesh"));
+
+  // The same in a case of several stages, for which a table says what faces there will be.
+  const std::string staged =
+      "analysis: fsi\n"
+      "mesh: {geometry: {surfaces: {lumen: lumen.stl, length_unit: mm, openings: o.csv}}, size: {edge: 8 mm}}\n"
+      "fluid: {}\nwall: {density: 1 g/cm^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.4}}}\n"
+      "boundary: {lumen_inlet: {flow: 50 ml/s}, lumen_outlet: {resistance: 1e8 Pa s/m^3}, \"wall_*\": fixed, "
+      "wall_outer: free}\n"
+      "time: {step: 1 ms, steps: 1}\n";
+  write("case.yaml", staged);
+  for (const auto& [outlet, part] : {std::pair{"out*", "o.csv:3: the name 'out*'"}, {"end", "lumen_end"}}) {
+    write("o.csv", fmt::format("name,centre_x,centre_y,centre_z\ninlet,0,0,0\n{},0,0,60\n", outlet));
+    for (const char* command : {"check case.yaml", "run case.yaml --dry-run"}) {
+      EXPECT_EQ(tunica(command), 2) << outlet;
+      expect_printed(part);
+    }
+  }
+  write("o.csv", "name,centre_x,centre_y,centre_z\ninlet,0,0,0\noutlet,0,0,60\n");
+  EXPECT_EQ(tunica("check case.yaml"), 0) << printed();
 }
 
 TEST_F(Text, ImplausibleValuesOfFilesAreWarnedOfByCheckAndInTheLog) {

@@ -122,6 +122,12 @@ TEST_F(Plausible, ResistancesThatNoHeartCouldOvercome) {
           .empty());
 }
 
+TEST_F(Plausible, ResistancesThatLetNothingThrough) {
+  expect_one(warnings("{pressure: 90 mmHg}", "{resistance: 5e11 Pa s/m^3}"), "drives 0.024 ml/s");
+  EXPECT_TRUE(warnings("{pressure: 90 mmHg}", "{resistance: 1e9 Pa s/m^3}").empty());
+  EXPECT_TRUE(warnings("{pressure: 1 mmHg}", "{resistance: 5e11 Pa s/m^3}").empty());  // no pressure of an artery
+}
+
 TEST(CaseNames, OfRegionsAndComparedLaws) {
   const auto message = [](const std::string& meshes, const std::string& more) {
     return test::message_of<InputError>([&] {
