@@ -163,7 +163,7 @@ std::size_t find_header(const std::vector<std::string>& headers, const std::stri
 
 std::string column_remedy(std::size_t cells, std::size_t headers, char separator) {
   std::string remedy = "give every line as many values as the header has names, or remove it";
-  if (separator == ',' && cells == 2 * headers) remedy += "; decimals are written with a point";
+  if (separator == ',' && cells > headers) remedy += "; decimals are written with a point";
   return remedy;
 }
 

@@ -206,7 +206,7 @@ TEST(SimVascular, RefusesBadMeshes) {
 TEST(SimVascular, RefusesNamesOfFacesThatServeNowhereElse) {
   for (const auto& [name, part] : {std::pair{"out*", "'out*' of a face has the character '*'"},
                                    {"M\xFCller", "'M\\xfcller' of a face is not UTF-8"},
-                                   {"X_MAX", "differs from 'x_max'"},
+                                   {"X_MAX", "the name 'x_max' differs from 'X_MAX'"},
                                    {"a,b", "has the character ','"}}) {
     const TemporaryFolder folder;
     write(folder.path(), block(), {});
