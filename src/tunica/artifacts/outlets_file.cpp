@@ -119,7 +119,19 @@ void set_outlets(case_file::Case& c, const TunedOutlets& tuned) {
       if (name == face) condition = rcr;
 }
 
-std::string take_tuned_outlets(MPI_Comm comm, case_file::Case& c, std::vector<Problem>* warnings) {
+std::vector<Problem> unusual_outlets(case_file::Case c) {
+  std::vector<Problem> warnings;
+  if (!c.outlets || !fs::exists(c.outlets->file())) return warnings;
+  const fs::path file = c.outlets->file();
+  set_outlets(c, parse_outlets(config::read_text(file), file, *c.outlets, &warnings));
+  for (auto& odd : case_file::implausible_outlets(c)) {
+    odd.where = fmt::format("{}: {}", file.string(), odd.where);
+    warnings.push_back(std::move(odd));
+  }
+  return warnings;
+}
+
+std::string take_tuned_outlets(MPI_Comm comm, case_file::Case& c) {
   std::string text;
   if (!c.outlets) return text;
   const fs::path file = c.outlets->file();
@@ -129,10 +141,7 @@ std::string take_tuned_outlets(MPI_Comm comm, case_file::Case& c, std::vector<Pr
     return config::read_text(file);
   });
   parallel::broadcast(comm, text);
-  set_outlets(c, parse_outlets(text, file, *c.outlets, warnings));
-  if (warnings)
-    for (auto& odd : parallel::on_root(comm, [&] { return case_file::implausible_outlets(c); }))
-      warnings->push_back(std::move(odd));
+  set_outlets(c, parse_outlets(text, file, *c.outlets));
   return text;
 }
 

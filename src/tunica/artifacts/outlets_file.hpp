@@ -28,7 +28,11 @@ void set_outlets(case_file::Case& c, const TunedOutlets& tuned);
 
 /// Reads the file that the section `outlets` of `c` names, sets its outlets and returns its text; does nothing and
 /// returns an empty text without that section. `c` is the same on all ranks. Throws InputError: no such file, and as
-/// parse_outlets. `warnings`, unless null, receives on rank 0 what is unusual. Collective.
-std::string take_tuned_outlets(MPI_Comm comm, case_file::Case& c, std::vector<Problem>* warnings = nullptr);
+/// parse_outlets. Collective.
+std::string take_tuned_outlets(MPI_Comm comm, case_file::Case& c);
+
+/// Warnings of unusual values among the tuned outlets; none while there is no such file. Throws InputError as
+/// parse_outlets. For one rank.
+std::vector<Problem> unusual_outlets(case_file::Case c);
 
 }  // namespace tunica::artifacts

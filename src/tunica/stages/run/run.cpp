@@ -493,15 +493,13 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
     auto parsed = case_file::read_case(request.case_file);
     c.settings = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
+    for (const auto& warning : artifacts::unusual_outlets(c.settings)) c.warnings.push_back(format(warning));
     c.mesh = artifacts::load_mesh(c.settings);
   });
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = case_file::parse_case(c.text, request.case_file);
   artifacts::name_faces(c.settings, c.mesh, comm);
-  std::vector<Problem> unusual;
-  c.outlets = artifacts::take_tuned_outlets(comm, c.settings, &unusual);
-  if (parallel::rank(comm) == 0)
-    for (const auto& warning : unusual) c.warnings.push_back(format(warning));
+  c.outlets = artifacts::take_tuned_outlets(comm, c.settings);
   return run_case(c, request, comm, screen);
 }
 
