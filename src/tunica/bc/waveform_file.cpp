@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/bc/waveform.hpp"
 #include "tunica/files/csv_file.hpp"
 
@@ -96,10 +97,10 @@ Table read_simvascular(const TableFile& file) {
 
 bool is_simvascular(const TableFile& file) {
   if (file.format != TableFormat::automatic) return file.format == TableFormat::simvascular;
-  const auto extension = file.path.extension();
+  const std::string extension = text::lower(file.path.extension().string());
   if (extension == ".flow") return true;
   if (extension == ".csv") return false;
-  throw InputError(file.path.string(), fmt::format("the extension '{}' does not tell the format", extension.string()),
+  throw InputError(file.path.string(), fmt::format("the extension '{}' does not tell the format", extension),
                    "set `format` to csv or simvascular");
 }
 

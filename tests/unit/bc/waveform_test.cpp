@@ -196,7 +196,7 @@ TEST(WaveformFile, CsvWithColumnsUnitsAndComments) {
   EXPECT_NEAR(table.values[1], 4e-6, 1e-20);
   WaveformInput input{.source = TableSource{{.path = file.path, .value_column = "Q ml/s"}, {}}, .scale = 10.0};
   EXPECT_NEAR(make_waveform(input).value(7.5), 30.0, 1e-13);
-  const Temporary two("b.csv", "t,Q\n0,1\n1,2\n");
+  const Temporary two("b.CSV", "t,Q\n0,1\n1,2\n");
   EXPECT_EQ(read_table({.path = two.path}).values[1], 2.0);
 }
 
