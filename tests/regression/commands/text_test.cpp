@@ -75,7 +75,7 @@ TEST_F(Text, MeasuredPointsAsSpreadsheetsWriteThem) {
   expect_printed("s.csv: is UTF-16");
 }
 
-TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWork) {
+TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWorkOrServeEverywhere) {
   std::string stl = "solid tube\n";
   const int around = 24, along = 24;
   const auto point = [&](int i, int k) {
@@ -116,6 +116,18 @@ TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWork) {
   }
   write("o.csv", "name,centre_x,centre_y,centre_z\ninlet,0,0,0\noutlet,0,0,60\n");
   EXPECT_EQ(tunica("check case.yaml"), 0) << printed();
+
+  write("o.csv", "Name;centre_x;centre_y;centre_z\r\ninlet;0;0;0\r\n\"L. iliac außen\";0;0;+60\r\n");
+  EXPECT_EQ(tunica("mesh mesh.yaml"), 0) << printed();
+  EXPECT_TRUE(fs::exists(folder_ / "mesh/lumen/mesh-surfaces/lumen_L. iliac außen.vtp"));
+  write("case.yaml",
+        "analysis: flow\nmeshes: {length_unit: mm, lumen: {simvascular: mesh/lumen}}\nfluid: {}\nboundary: "
+        "{lumen_inlet: {flow: "
+        "50 ml/s}, lumen_L. iliac außen: {resistance: 1e8 Pa s/m^3}, lumen_wall: no_slip}\ntime: {step: 1 ms, steps: "
+        "1}\n");
+  EXPECT_EQ(tunica("check case.yaml"), 0) << printed();
+  EXPECT_EQ(tunica("run case.yaml"), 0) << printed();
+  EXPECT_EQ(tunica("plot results/faces.csv \"außen pressure\" --output p.svg"), 0) << printed();
 }
 
 TEST_F(Text, ImplausibleValuesOfFilesAreWarnedOfByCheckAndInTheLog) {
