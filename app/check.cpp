@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "file_command.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/pipeline/chain.hpp"
 #include "version.hpp"
 
@@ -13,13 +14,15 @@ namespace tunica::app {
 namespace {
 
 void check(const std::filesystem::path& file) {
-  const auto parsed = case_file::read_case(file);
+  auto parsed = case_file::read_case(file);
   if (parsed.value.is_chain()) {
     for (const auto& line : pipeline::check_chain({.case_file = file, .program = {version(), commit()}}))
       std::printf("%s\n", line.c_str());
     std::printf("%s: no errors that can be found before its stages are done\n", file.c_str());
     return;
   }
+  const auto outlets = artifacts::unusual_outlets(parsed.value);
+  parsed.warnings.insert(parsed.warnings.end(), outlets.begin(), outlets.end());
   print_warnings(parsed.warnings);
   const auto mesh = artifacts::load_mesh(parsed.value);
   for (const auto& line : mesh.report) std::printf("%s\n", line.c_str());

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "tunica/artifacts/plausible_faces.hpp"
 #include "tunica/artifacts/prestress_file.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/interface.hpp"
+#include "tunica/mesh/plausible_size.hpp"
 #include "tunica/mesh/quality.hpp"
 #include "tunica/mesh_io/gmsh.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
@@ -137,6 +139,7 @@ CheckedMesh read_and_measure(const case_file::MeshSettings& m, const WallArrays&
   LoadedMesh loaded = read_or_generate(m, arrays);
   CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
   report_quality(mesh, problems);
+  if (const auto odd = mesh::implausible_size(mesh.data, m.metres_per_unit)) mesh.warnings.push_back(format(*odd));
   return mesh;
 }
 
@@ -180,6 +183,9 @@ CheckedMesh load_mesh(const case_file::Case& c) {
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   if (c.wall && c.wall->prestress) collect(problems, [&] { read_prestress(*c.wall->prestress, mesh.data); });
   if (!problems.empty()) throw InputError(std::move(problems));
+  // A mesh in the wrong unit makes every flow through it unusual: one warning is enough.
+  if (!mesh::implausible_size(mesh.data, {}))
+    for (const auto& odd : implausible_on_faces(c, mesh.data)) mesh.warnings.push_back(format(odd));
   return mesh;
 }
 

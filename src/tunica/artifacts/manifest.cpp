@@ -14,6 +14,7 @@
 #include "tunica/artifacts/histories.hpp"
 #include "tunica/assembly/isa.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/files/time_stamp.hpp"
@@ -117,7 +118,7 @@ void Manifest::write(const ManifestProgress& p) {
         {"elements", head_.elements},
         {"regions", regions}}},
       {"runs", runs}};
-  files::write_atomically(file_, manifest.dump(2) + "\n");
+  files::write_atomically(file_, config::json_text(manifest));
 }
 
 std::optional<EarlierResults> find_results(const fs::path& folder) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tunica/base/error.hpp"
+#include "tunica/case/plausible.hpp"
 #include "tunica/files/csv_file.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -91,9 +92,12 @@ void write_outlets(const fs::path& file, const case_file::TuningCase& outlets, c
   files::write_atomically(file, text);
 }
 
-TunedOutlets parse_outlets(const std::string& text, const fs::path& file, const case_file::TuningCase& outlets) {
+TunedOutlets parse_outlets(const std::string& text, const fs::path& file, const case_file::TuningCase& outlets,
+                           std::vector<Problem>* warnings) {
   const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = false};
-  const OutletsFile found = config::parse_text(outlets_file_schema(), text, origin).value;
+  const auto parsed = config::parse_text(outlets_file_schema(), text, origin);
+  const OutletsFile& found = parsed.value;
+  if (warnings) warnings->insert(warnings->end(), parsed.warnings.begin(), parsed.warnings.end());
   std::vector<Problem> problems = check_targets(found, file, outlets);
   TunedOutlets tuned;
   for (const auto& [face, share] : outlets.fractions) {
@@ -113,6 +117,18 @@ void set_outlets(case_file::Case& c, const TunedOutlets& tuned) {
   for (const auto& [face, rcr] : tuned)
     for (auto& [name, condition] : c.boundary)
       if (name == face) condition = rcr;
+}
+
+std::vector<Problem> unusual_outlets(case_file::Case c) {
+  std::vector<Problem> warnings;
+  if (!c.outlets || !fs::exists(c.outlets->file())) return warnings;
+  const fs::path file = c.outlets->file();
+  set_outlets(c, parse_outlets(config::read_text(file), file, *c.outlets, &warnings));
+  for (auto& odd : case_file::implausible_outlets(c)) {
+    odd.where = fmt::format("{}: {}", file.string(), odd.where);
+    warnings.push_back(std::move(odd));
+  }
+  return warnings;
 }
 
 std::string take_tuned_outlets(MPI_Comm comm, case_file::Case& c) {

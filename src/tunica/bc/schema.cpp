@@ -171,7 +171,7 @@ Schema<Pressure> Pressure::schema() {
 Schema<Resistance> Resistance::schema() {
   return Schema<Resistance>("resistance", "Outlet whose pressure grows with the flow: P = R Q + P_d.")
       .quantity("resistance", &Resistance::resistance, dimension::resistance, at_least(0), "R")
-      .plausible("1e5 Pa s/m^3", "1e13 Pa s/m^3")
+      .plausible("1e5 Pa s/m^3", "1e12 Pa s/m^3")
       .quantity("distal_pressure", &Resistance::distal_pressure, dimension::pressure, anything(), "P_d")
       .by_default()
       .plausible("-20 mmHg", "200 mmHg")
@@ -181,10 +181,11 @@ Schema<Resistance> Resistance::schema() {
 Schema<Rcr> Rcr::schema() {
   return Schema<Rcr>("rcr", "Three-element Windkessel: P = P_c + R_p Q, C dP_c/dt = Q - (P_c - P_d) / R_d.")
       .quantity("proximal", &Rcr::proximal, dimension::resistance, at_least(0), "R_p")
+      .plausible("0 Pa s/m^3", "1e12 Pa s/m^3")
       .quantity("capacitance", &Rcr::capacitance, dimension::compliance, above(0), "C")
-      .plausible("1e-14 m^3/Pa", "1e-6 m^3/Pa")
+      .plausible("1e-13 m^3/Pa", "1e-7 m^3/Pa")
       .quantity("distal", &Rcr::distal, dimension::resistance, above(0), "R_d")
-      .plausible("1e5 Pa s/m^3", "1e13 Pa s/m^3")
+      .plausible("1e5 Pa s/m^3", "1e12 Pa s/m^3")
       .quantity("distal_pressure", &Rcr::distal_pressure, dimension::pressure, anything(), "P_d")
       .by_default()
       .plausible("-20 mmHg", "200 mmHg")

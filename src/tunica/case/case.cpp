@@ -9,6 +9,8 @@
 #include "tunica/case/compared_law.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/wall/parameters.hpp"
+#include "tunica/case/keys.hpp"
+#include "tunica/case/plausible.hpp"
 
 namespace tunica::case_file {
 
@@ -73,6 +75,7 @@ Schema<WallMesh> wall_mesh_schema() {
           if (const auto [other, is_new] = known.emplace(number, name); !is_new)
             problems.add("regions." + name, fmt::format("is {}, as is {}", number, other->second),
                          "give every region its own number");
+        check_keys("regions", m.regions, "region", problems);
       });
 }
 
@@ -95,6 +98,7 @@ Schema<GmshMesh> gmsh_schema() {
                                           [](const auto& r) { return r.second == mesh::RegionKind::lumen; });
         if (lumens > 1)
           problems.add("regions", fmt::format("names {} lumens", lumens), "join them to one physical volume");
+        check_keys("regions", gmsh.regions, "region", problems);
       });
 }
 
@@ -215,6 +219,7 @@ void check_case(const Case& c, Problems& problems) {
                    "remove it, or choose another analysis");
   }
   check_chain(c, problems);
+  check_keys("compare", c.compare, "compared law", problems);
   if (c.prestress && c.solves_wall()) {
     if (coupled && !c.prestress->flow)
       problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",
@@ -397,6 +402,7 @@ config::Parsed<Case> read_case(const std::filesystem::path& file) {
   config::Parsed<Case> parsed = parse(config::read_text(file), file, true);
   std::vector<Problem> problems = check_waveforms(parsed.value);
   if (!problems.empty()) throw InputError(std::move(problems));
+  for (auto& warning : implausible_values(parsed.value)) parsed.warnings.push_back(std::move(warning));
   return parsed;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/case/keys.hpp"
+
 namespace tunica::case_file {
 
 using config::Problems;
@@ -188,10 +190,7 @@ void check_case(const MaterialCase& c, Problems& problems) {
     problems.add("incompressible", "is false, but the law has no finite bulk modulus",
                  "give the law a bulk_modulus, or a poisson_ratio below 0.5");
   if (c.tests.empty()) problems.add("tests", "is empty", "add one, such as `pull: {uniaxial: {to: 1.2}}`");
-  for (const auto& [name, test] : c.tests)
-    if (name.empty() || name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
-      problems.add("tests." + name, "is no name of a file",
-                   "the results are <name>.csv and a plot <name>.svg or <name>.png");
+  check_keys("tests", c.tests, "test", problems);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ Schema<SteadyFlow> SteadyFlow::schema() {
       .plausible("1 ml/s", "500 ml/s")
       .quantity("step", &SteadyFlow::step, dimension::time, config::above(0), "Time step towards the steady state")
       .by_default()
-      .plausible("0.01 ms", "100 ms")
+      .plausible("0.01 ms", "20 ms")
       .integer("steps", &SteadyFlow::steps, config::range(2, 1000000), "Most steps towards the steady state")
       .by_default()
       .number("tolerance", &SteadyFlow::tolerance, config::range(1e-12, 0.5),

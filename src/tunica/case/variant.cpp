@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/config/document.hpp"
 #include "tunica/files/atomic_file.hpp"
@@ -27,9 +28,11 @@ std::string variant(const VariantRequest& request) {
     const std::string key = setting.substr(0, equals);
     document.set(key, config::Document(setting.substr(equals + 1), "the value of " + key));
   }
-  const std::string text = fmt::format("# A variant of {}.\n", request.case_file.filename().string()) +
-                           config::commented_yaml(document, *description);
-  parse_case(text, request.output);
+  const std::string text =
+      fmt::format("# A variant of {}.\n", text::printable(request.case_file.filename().string(), 400)) +
+      config::commented_yaml(document, *description);
+  // Paths that count from another folder may have brought names of folders that are no UTF-8.
+  parse_case(text::checked(text, request.output.string()), request.output);
   return text;
 }
 

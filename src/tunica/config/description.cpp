@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "tunica/base/text.hpp"
 #include "tunica/config/schema.hpp"
 
 namespace tunica::config {
@@ -27,13 +26,10 @@ std::string Range::text(const Dimension& dimension) const {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  std::error_code ignored;  // not there, not readable and too long a name come to the same
-  if (!std::filesystem::is_regular_file(file, ignored) || !(text << stream.rdbuf()))
-    throw InputError(file.string(), "file does not exist, is empty or cannot be read",
-                     "check its name and permissions");
-  return text.str();
+  std::string content = text::read(file);
+  if (text::trimmed(content).empty())
+    throw InputError(text::printable(file.string(), 400), "is empty", "check its name");
+  return content;
 }
 
 namespace detail {

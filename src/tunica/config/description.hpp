@@ -118,7 +118,7 @@ struct Origin {
 /// InputError with everything that is wrong.
 std::vector<Problem> parse(const Description& description, void* object, const std::string& yaml, const Origin& origin);
 
-/// Whole text of a file. Throws InputError.
+/// Whole text of a file, UTF-8. Throws InputError as text::read, and when it is empty.
 std::string read_text(const std::filesystem::path& file);
 
 /// Reference of all keys. Sections that are alike are written out once.

@@ -189,12 +189,24 @@ class Reader {
     error(path, line, what, fmt::format("add `{}: {}`", field.key, example));
   }
 
+  /// Line of a key of a map, or of the map.
+  static int line_below(const Entry& entry, const std::string& key) {
+    if (entry.node.IsMap())
+      for (const auto& pair : entry.node)
+        if (pair.first.IsScalar() && pair.first.Scalar() == key) return pair.first.Mark().line + 1;
+    return entry.line;
+  }
+
   void run_checks(const Level& level, const std::vector<Entry>& entries, const std::string& path, int line) {
     Problems found;
     for (const auto& check : level.description->checks) check(level.object, found);
     const auto locate = [&](Problem& problem) {
-      const Entry* entry = find(entries, problem.where.substr(0, problem.where.find('.')));
-      problem.where = where(problem.where.empty() ? path : below(path, problem.where), entry ? entry->line : line);
+      const auto dot = problem.where.find('.');
+      const Entry* entry = find(entries, problem.where.substr(0, dot));
+      const int at = !entry                     ? line
+                     : dot == std::string::npos ? entry->line
+                                                : line_below(*entry, problem.where.substr(dot + 1));
+      problem.where = where(problem.where.empty() ? path : below(path, problem.where), at);
     };
     std::for_each(found.errors.begin(), found.errors.end(), locate);
     std::for_each(found.warnings.begin(), found.warnings.end(), locate);

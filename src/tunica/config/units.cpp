@@ -99,7 +99,7 @@ constexpr auto named = std::to_array<Named>({
     {dimension::force, "force", "N, dyn"},
     {dimension::pressure, "pressure or stress", "Pa, kPa, MPa, mmHg, dyn/cm^2"},
     {dimension::dynamic_viscosity, "dynamic viscosity", "Pa s, mPa s, P, cP, dyn s/cm^2"},
-    {dimension::volume_flow, "volume flow", "m^3/s, cm^3/s, ml/s, L/min"},
+    {dimension::volume_flow, "volume flow", "m^3/s, cm^3/s, ml/s, L/min, ml/min"},
     {dimension::resistance, "flow resistance", "Pa s/m^3, dyn s/cm^5, mmHg s/ml"},
     {dimension::compliance, "compliance", "m^3/Pa, cm^5/dyn, ml/mmHg"},
     {dimension::stiffness_per_area, "stiffness per area", "N/m^3, dyn/cm^3"},

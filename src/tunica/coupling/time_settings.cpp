@@ -37,7 +37,7 @@ Schema<TimeSettings> TimeSettings::schema() {
   return Schema<TimeSettings>("time", "Time stepping: a number of steps, or cycles until they repeat themselves.")
       .quantity("step", &TimeSettings::step, dimension::time, config::above(0),
                 "Step size; with `adaptive` the largest")
-      .plausible("0.001 ms", "100 ms")
+      .plausible("0.001 ms", "20 ms")
       .integer("steps", &TimeSettings::steps, config::range(1, 1e9), "Number of steps of that size")
       .optional()
       .section("cycles", &TimeSettings::cycles, CycleSettings::schema(),

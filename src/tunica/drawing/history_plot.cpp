@@ -33,7 +33,8 @@ std::string unit_of(const std::string& header) {
 
 std::vector<std::string> plot_history(const HistoryPlotOptions& options) {
   files::try_output(options.output);
-  const files::CsvColumns history = files::read_csv(options.history, "name a history of a run, such as faces.csv");
+  const files::CsvColumns history =
+      files::read_csv(options.history, "name a history of a run, such as faces.csv", files::Gaps::allowed);
   const std::size_t x = find(history, options.x).front();
   std::vector<std::size_t> chosen;
   for (const auto& text : options.columns)

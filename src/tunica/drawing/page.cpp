@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
+#include "tunica/base/text.hpp"
+
 namespace tunica::drawing::page {
 
 namespace {
@@ -15,23 +19,34 @@ constexpr const char* style =
     "td{white-space:nowrap}"
     "h2{border-bottom:2px solid #ddd;margin-top:1.6em}.missing{color:#666;background:#f5f5f5;padding:.4em .8em}"
     "pre{background:#f5f5f5;padding:.8em;overflow-x:auto;font-size:13px}nav a{margin-right:1em}";
+constexpr const char* replacement = "\xEF\xBF\xBD";  // for a byte of a file name that is no UTF-8
 constexpr const char *heading_end = "</h1>\n", *page_end = "</body></html>\n";
 
 }  // namespace
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
+  std::string_view rest(text);
+  while (!rest.empty()) {
+    const std::size_t valid = text::valid_utf8(rest);
+    for (const char c : rest.substr(0, valid)) {
+      if (c == '&')
+        result += "&amp;";
+      else if (c == '<')
+        result += "&lt;";
+      else if (c == '>')
+        result += "&gt;";
+      else if (c == '"')
+        result += "&quot;";
+      else if (c == '\'')
+        result += "&#39;";
+      else
+        result += c;
+    }
+    rest.remove_prefix(valid);
+    if (rest.empty()) break;
+    result += replacement;
+    rest.remove_prefix(1);
   }
   return result;
 }

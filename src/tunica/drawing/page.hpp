@@ -7,7 +7,7 @@
 
 namespace tunica::drawing::page {
 
-/// Text in which nothing is taken for markup.
+/// Text in which nothing is taken for markup, neither between tags nor in an attribute; always UTF-8.
 std::string escaped(const std::string& text);
 
 /// From the first character of the file to the title as a heading, and its end.

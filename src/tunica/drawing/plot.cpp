@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tunica/base/error.hpp"
+#include "tunica/drawing/page.hpp"
 #include "tunica/drawing/svg_image.hpp"
 #include "tunica/files/atomic_file.hpp"
 
@@ -46,29 +47,9 @@ struct Axis {
   }
 };
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string text_at(double x, double y, const char* anchor, const std::string& text, const std::string& more = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                     escaped(text));
+                     page::escaped(text));
 }
 
 std::string line_at(double x1, double y1, double x2, double y2, const std::string& stroke) {

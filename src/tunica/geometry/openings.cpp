@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <map>
-#include <set>
-#include <sstream>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh_io/extent.hpp"
+#include "tunica/files/csv_file.hpp"
+#include "tunica/mesh/names.hpp"
 
 namespace tunica::geometry {
 
@@ -154,55 +152,19 @@ bool lies_in(const Opening& opening, const Point& x) {
 }
 
 std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, double metres_per_unit) {
-  const std::string remedy = "write a table with the columns name, centre_x, centre_y, centre_z";
-  std::ifstream file(path);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored) || !file)
-    throw InputError(path.string(), "cannot be read", "check the path");
-  const auto cells = [](const std::string& line) {
-    std::vector<std::string> result;
-    std::istringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) {
-      while (!cell.empty() && std::isspace(static_cast<unsigned char>(cell.back()))) cell.pop_back();
-      result.push_back(cell);
-    }
-    return result;
-  };
+  const auto table = files::read_table(path, "write a table with the columns name, centre_x, centre_y, centre_z");
+  const std::size_t name = table.find("name");
+  const std::array centre{table.find("centre_x"), table.find("centre_y"), table.find("centre_z")};
   std::vector<NamedPlace> names;
-  std::vector<std::string> header;
-  std::set<std::string> seen;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    if (line.size() > longest_line || line.find('\0') != std::string::npos)
-      throw InputError(fmt::format("{}, line {}", path.string(), number), "is no line of a table", remedy);
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
-    if (header.empty()) {
-      header = cells(line);
-      continue;
-    }
-    const auto row = cells(line);
-    const auto value = [&](const std::string& column) {
-      const auto at = std::find(header.begin(), header.end(), column) - header.begin();
-      if (at == std::ssize(header)) throw InputError(path.string(), "has no column " + column, remedy);
-      return at < std::ssize(row) ? row[at] : std::string();
-    };
-    NamedPlace named{value("name"), {}};
-    for (int d = 0; d < 3; ++d) {
-      const std::string text = value(std::string("centre_") + "xyz"[d]);
-      double x = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-      if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x))
-        throw InputError(fmt::format("{}, line {}", path.string(), number), "'" + text + "' is no number", remedy);
-      named.place[d] = metres_per_unit * x;
-    }
-    if (named.name.empty() || !seen.insert(named.name).second)
-      throw InputError(fmt::format("{}, line {}", path.string(), number),
-                       fmt::format("the name '{}' is empty or there already", named.name),
-                       "give each opening a name of its own");
-    names.push_back(std::move(named));
+  std::vector<mesh::PlacedName> placed;
+  for (const auto& row : table.rows) {
+    NamedPlace& named = names.emplace_back(NamedPlace{row.cells[name], {}});
+    for (int d = 0; d < 3; ++d) named.place[d] = metres_per_unit * table.number(row, centre[d]);
+    placed.push_back({named.name, table.where(row.line)});
   }
-  if (names.empty()) throw InputError(path.string(), "names no opening", remedy);
+  if (names.empty()) throw InputError(path.string(), "names no opening", "add a line for each vessel end");
+  auto problems = mesh::check_opening_names(placed);
+  if (!problems.empty()) throw InputError(std::move(problems));
   return names;
 }
 

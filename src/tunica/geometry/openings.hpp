@@ -29,8 +29,8 @@ struct Opening {
 /// the area.
 bool lies_in(const Opening& opening, const Point& x);
 
-/// Reads names and centres from a CSV file with the columns name, centre_x, centre_y, centre_z. InputError for a
-/// missing file or column, a name that is there twice, or a value that is no number.
+/// Reads names and centres from a table with the columns name, centre_x, centre_y, centre_z. Throws InputError as
+/// files::read_table, for a missing column, a value that is no number, and as mesh::check_opening_names.
 std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, double metres_per_unit);
 
 /// Openings of the lumen surface, each with the rim of the outer surface (null: none) around it. A name goes to the

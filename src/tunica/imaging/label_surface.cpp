@@ -9,6 +9,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/smooth_field.hpp"
 #include "tunica/imaging/surface_smoothing.hpp"
+#include "tunica/mesh/names.hpp"
 
 namespace tunica::imaging {
 
@@ -208,6 +209,9 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
         const auto named = [&](const auto& o) { return o.first == s.inlet; };
         if (!s.inlet.empty() && std::none_of(s.openings.begin(), s.openings.end(), named))
           problems.add("inlet", "no opening is called '" + s.inlet + "'", "name the vessel ends in `openings`");
+        std::vector<mesh::PlacedName> names;
+        for (const auto& [name, opening] : s.openings) names.push_back({name, "openings." + name});
+        for (auto& problem : mesh::check_opening_names(names)) problems.errors.push_back(std::move(problem));
       });
 }
 

@@ -9,6 +9,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/names.hpp"
 #include "tunica/mesh/quality.hpp"
 #include "tunica/mesh_io/extent.hpp"
 #include "tunica/mesh_io/msh_file.hpp"
@@ -237,6 +238,9 @@ void fill_faces(const MshFile& file, const std::vector<Index>& position, const s
     mesh.report.push_back(
         fmt::format("face {}: {} triangles of {}", f.name, f.triangles.size(), data.regions[f.region].name));
   }
+  std::vector<mesh::PlacedName> placed;
+  for (const auto& f : data.faces) placed.push_back({f.name, where});
+  if (auto problems = mesh::check_names(placed, "face"); !problems.empty()) throw InputError(std::move(problems));
   mesh::orient_and_check_faces(data, boundary, where);
 }
 

@@ -10,6 +10,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/names.hpp"
 #include "tunica/mesh/point_locator.hpp"
 #include "tunica/mesh/quality.hpp"
 #include "tunica/mesh_io/extent.hpp"
@@ -369,6 +370,9 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
+  std::vector<mesh::PlacedName> names;
+  for (const auto& path : surfaces) names.push_back({path.stem().string(), path.string()});
+  for (auto& problem : mesh::check_names(names, "face")) problems.push_back(std::move(problem));
   if (!problems.empty()) throw InputError(std::move(problems));
   data.faces = std::move(faces);
   data.node_fields = std::move(node_fields);

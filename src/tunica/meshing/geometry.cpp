@@ -51,14 +51,15 @@ GeometrySurfaces from(const geometry::ParametricDissection& shape, const Complex
 
 GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) {
   const double unit = files.metres_per_unit;
-  GeometrySurfaces result{{geometry::read_surface(files.lumen, unit), {}, {}}, 1, files.roles};
-  if (!files.false_lumen.empty()) {
-    geometry::append(result.surfaces.lumen, geometry::read_surface(files.false_lumen, unit));
-    result.lumen_parts = 2;
-  }
+  GeometrySurfaces result{{{}, {}, {}}, 1, files.roles};
   if (!files.openings.empty()) {
     result.surfaces.names = geometry::read_opening_names(files.openings, unit);
     check_names(files.roles, result.surfaces.names);
+  }
+  result.surfaces.lumen = geometry::read_surface(files.lumen, unit);
+  if (!files.false_lumen.empty()) {
+    geometry::append(result.surfaces.lumen, geometry::read_surface(files.false_lumen, unit));
+    result.lumen_parts = 2;
   }
   if (!files.outer_wall.empty()) {
     result.surfaces.outer = geometry::read_surface(files.outer_wall, unit);

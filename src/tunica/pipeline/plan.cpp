@@ -8,6 +8,7 @@
 #include "tunica/analysis/vessel.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/config/nearest.hpp"
@@ -35,6 +36,22 @@ std::vector<std::string> openings_of(const geometry::ParametricDissection& shape
   return names;
 }
 
+/// Those of surfaces with a table, read and checked as the mesh will have them; none when they are not known yet.
+std::vector<std::string> openings_of(const meshing::SurfaceFiles& files) {
+  std::vector<std::string> names;
+  if (files.openings.empty()) return names;
+  const auto placed = geometry::read_opening_names(files.openings, files.metres_per_unit);
+  meshing::check_names(files.roles, placed);
+  for (const auto& opening : placed) names.push_back(opening.name);
+  return names;
+}
+
+std::vector<std::string> openings_of(const meshing::ImageGeometry& image) {
+  std::vector<std::string> names;
+  for (const auto& [name, opening] : image.surface.openings) names.push_back(name);
+  return names;
+}
+
 void check_region_names(const case_file::Case& c, std::vector<Problem>& problems) {
   const std::vector<std::string> known(meshing::wall_region_names.begin(), meshing::wall_region_names.end());
   std::set<std::pair<std::string, std::string>> named;
@@ -48,12 +65,13 @@ void check_region_names(const case_file::Case& c, std::vector<Problem>& problems
           {key + name, "the mesh will have no such region of the wall", "its regions: " + mesh::list_names(known)});
 }
 
-/// Faces of a mesh that is yet to be made are known for the idealised dissection only.
+/// Faces of a mesh that is yet to be made are known where its openings have names.
 void check_faces_to_come(const Chain& chain, std::vector<Problem>& problems) {
-  const auto* shape = std::get_if<geometry::ParametricDissection>(&chain.settings.mesh->geometry);
-  if (!shape) return;
+  const auto openings =
+      std::visit([](const auto& geometry) { return openings_of(geometry); }, chain.settings.mesh->geometry);
+  if (openings.empty()) return;
   std::vector<bc::BoundaryFace> faces;
-  for (const auto& name : openings_of(*shape)) {
+  for (const auto& name : openings) {
     faces.push_back({"lumen_" + name, bc::Field::lumen});
     faces.push_back({"wall_" + name, bc::Field::wall});
   }
@@ -98,19 +116,22 @@ std::string from_folder(const std::string& path, const fs::path& folder) {
   return full.lexically_relative(base).string();
 }
 
+/// As a record can hold it: names of files need not be UTF-8.
+std::string recorded(const std::string& text) { return text::printable(text, std::string::npos); }
+
 Inputs inputs_of(const Chain& chain, const Stage& stage, const config::Document& document) {
   const fs::path folder = folder_of(chain, stage);
   const config::Origin origin{.name = (folder / stage.file).string(), .folder = folder};
   Inputs inputs;
   Fingerprints fingerprints;
   const auto add_file = [&](const std::string& path) {
-    if (const auto print = fingerprints.of(folder / path); !print.empty()) inputs.files[path] = print;
+    if (const auto print = fingerprints.of(folder / path); !print.empty()) inputs.files[recorded(path)] = print;
   };
   for (const auto& s : stage.settings(document, origin)) {
     if (!matters(stage, s.path)) continue;
     const bool file = s.kind == Kind::file || s.kind == Kind::folder || s.kind == Kind::path;
-    std::string& value = inputs.settings[s.path];
-    value = file ? from_folder(s.value, folder) : s.value;
+    const std::string value = file ? from_folder(s.value, folder) : s.value;
+    inputs.settings[s.path] = recorded(value);
     if (file) add_file(value);
   }
   if (stage.reads)
@@ -137,6 +158,17 @@ void compare(const Stage& stage, const fs::path& folder, Plan& p) {
   p.reason = fmt::format("inputs changed: {}{}", text_of(change), p.resume ? "; it goes on with what is there" : "");
 }
 
+/// The files of the stages, which are YAML, name the case file from their folders and these from its own.
+void check_paths(const Chain& chain, std::vector<Problem>& problems) {
+  const fs::path file = fs::absolute(chain.file).lexically_normal(), folder = file.parent_path(),
+                 output = fs::absolute(chain.output).lexically_normal();
+  for (const auto& path : {file.lexically_relative(output), output.lexically_relative(folder)})
+    if (text::valid_utf8(path.string()) < path.string().size())
+      problems.push_back({text::printable(path.string(), 400),
+                          "is a path that is not UTF-8, and the files of the stages have to name it",
+                          "rename the file or folder, or choose another folder by --output"});
+}
+
 }  // namespace
 
 Chain read_chain(const fs::path& file, const std::optional<fs::path>& directory, std::vector<Problem>& warnings) {
@@ -148,6 +180,7 @@ Chain read_chain(const fs::path& file, const std::optional<fs::path>& directory,
   chain.settings = std::move(parsed.value);
   chain.output = directory.value_or(chain.settings.output.directory);
   std::vector<Problem> problems;
+  check_paths(chain, problems);
   if (chain.settings.mesh) check_faces_to_come(chain, problems);
   check_fibres(chain.settings, problems);
   check_post(chain.settings, problems);

@@ -8,6 +8,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/time_stamp.hpp"
@@ -98,7 +99,7 @@ void write_record(const fs::path& folder, const Record& r) {
   json["fingerprint"] = r.inputs.fingerprint();
   json["settings"] = r.inputs.settings;
   json["files"] = r.inputs.files;
-  files::write_atomically(folder / record_file, json.dump(2) + "\n");
+  files::write_atomically(folder / record_file, config::json_text(json));
 }
 
 std::string Fingerprints::of(const fs::path& path) {

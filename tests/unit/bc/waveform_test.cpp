@@ -196,24 +196,27 @@ TEST(WaveformFile, CsvWithColumnsUnitsAndComments) {
   EXPECT_NEAR(table.values[1], 4e-6, 1e-20);
   WaveformInput input{.source = TableSource{{.path = file.path, .value_column = "Q ml/s"}, {}}, .scale = 10.0};
   EXPECT_NEAR(make_waveform(input).value(7.5), 30.0, 1e-13);
-  const Temporary two("b.csv", "t,Q\n0,1\n1,2\n");
+  const Temporary two("b.CSV", "t,Q\n0,1\n1,2\n");
   EXPECT_EQ(read_table({.path = two.path}).values[1], 2.0);
 }
 
 TEST(WaveformFile, ErrorsNameFileAndLine) {
-  EXPECT_TRUE(contains(message(TableFile{.path = "/nowhere/q.csv"}), "/nowhere/q.csv: the waveform file cannot"));
+  EXPECT_TRUE(
+      contains(message(TableFile{.path = "/nowhere/q.csv"}), "/nowhere/q.csv: does not exist or cannot be read"));
   EXPECT_TRUE(contains(message(TableFile{.path = "/nowhere/q.txt"}), "format"));
   const struct {
     const char *text, *expected;
-  } cases[] = {{"t,Q\n0,1\n1,x\n", "a.csv:3: 'x' is not a finite number"},
+  } cases[] = {{"t,Q\n0,1\n1,x\n", "a.csv:3: 'x' under 'Q' is not a number"},
                {"t,Q\n0,1\n1,nan\n", "a.csv:3: 'nan'"},
-               {"t,Q\n0,1\n1,\n", "a.csv:3: ''"},
+               {"t,Q\n0,1\n1,\n", "a.csv:3: '' under 'Q'"},
                {"t,Q\n0,1\n0,2\n", "a.csv:3: time 0 s does not increase"},
-               {"t,Q\n0,1\n1\n", "a.csv:3: 1 columns, the header names 2"},
+               {"t,Q\n0,1\n1\n", "a.csv:3: has 1 columns, the header 2"},
                {"0,1\n1,2\n", "a.csv:1: the first line holds numbers"},
                {"t,Q,p\n0,1,1\n", "value_column` to one of: t, Q, p"},
                {"t\n0\n", "one column"},
                {"t,Q\n0,1\n", "at least 2"},
+               {"t;Q\n0;1,5\n1;2\n", "'1,5' under 'Q' is not a number"},
+               {"t,Q\n0,1\n1,\xFC\n", "line 3, column 3: holds the byte 0xfc"},
                {"# only\n", "empty"}};
   for (const auto& c : cases) {
     const Temporary file("a.csv", c.text);
@@ -221,7 +224,7 @@ TEST(WaveformFile, ErrorsNameFileAndLine) {
     EXPECT_TRUE(contains(text, c.expected)) << text;
   }
   const Temporary file("a.csv", "t,Q,p\n0,1,1\n1,1,1\n");
-  EXPECT_TRUE(contains(message(TableFile{.path = file.path, .value_column = "flow"}), "no column 'flow'"));
+  EXPECT_TRUE(contains(message(TableFile{.path = file.path, .value_column = "flow"}), "no column is called 'flow'"));
 }
 
 TEST(WaveformFile, SimVascular) {

@@ -105,14 +105,38 @@ TEST(OpeningNames, ReadFromTable) {
   EXPECT_EQ(names[1].name, "b");
   EXPECT_NEAR(names[1].place[2], -6e-3, 1e-15);
   const auto why = [&](const std::string& text) { return message_of<InputError>([&] { read(text); }); };
-  EXPECT_TRUE(says(why("name,centre_x,centre_y\na,1,2\n"), "no column centre_z"));
-  EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,x\n"), "'x' is no number"));
-  EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,3\na,1,2,3\n"), "there already"));
-  EXPECT_TRUE(says(why("# nothing\n"), "names no opening"));
+  EXPECT_TRUE(says(why("name,centre_x,centre_y\na,1,2\n"), "no column is called 'centre_z'"));
+  EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,x\n"), "a.csv:2: 'x' under 'centre_z' is not a number"));
+  EXPECT_TRUE(
+      says(why("name,centre_x,centre_y,centre_z\na,1,2,3\na,1,2,3\n"), "a.csv:3: the name 'a' is there already"));
+  EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\n"), "names no opening"));
   EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path / "none.csv", 1); }), "cannot be read"));
   EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path, 1); }), "cannot be read"));
   EXPECT_TRUE(says(why(std::string(20000, 'x')), "line 1: is no line of a table"));
   EXPECT_TRUE(says(why(std::string("name\0", 5)), "line 1: is no line of a table"));
+}
+
+TEST(OpeningNames, WhatExcelMakesOfTheTableReadsAlike) {
+  const Folder folder;
+  for (const char* text : {"\xEF\xBB\xBFname,centre_x,centre_y,centre_z\r\nL iliac,+1,2,-3\r\n\r\n",
+                           "\"name\";\"centre_x\";\"centre_y\";\"centre_z\"\n\"L iliac\"; 1; 2; -3\n;;;\n",
+                           "Name, Centre_X, Centre_Y, Centre_Z\rL iliac,1,2,-3\r"}) {
+    std::ofstream(folder.path / "a.csv", std::ios::binary) << text;
+    const auto names = read_opening_names(folder.path / "a.csv", 1e-3);
+    ASSERT_EQ(names.size(), 1u) << text;
+    EXPECT_EQ(names[0].name, "L iliac");
+    EXPECT_NEAR(names[0].place[2], -3e-3, 1e-15);
+  }
+}
+
+TEST(OpeningNames, CheckedAllAtOnceWhereTheyAreRead) {
+  const Folder folder;
+  std::ofstream(folder.path / "a.csv") << "name,centre_x,centre_y,centre_z\nL/R iliac,0,0,0\nwall,0,0,9\nout*,0,0,9\n"
+                                          "in,0,0,9\nIN,0,0,9\n";
+  const auto why = message_of<InputError>([&] { read_opening_names(folder.path / "a.csv", 1); });
+  for (const char* part : {"a.csv:2: the name 'L/R iliac'", "a.csv:3: an opening cannot be called 'wall'",
+                           "a.csv:4: the name 'out*'", "a.csv:6: the name 'IN' differs from 'in'"})
+    EXPECT_TRUE(says(why, part)) << why;
 }
 
 }  // namespace

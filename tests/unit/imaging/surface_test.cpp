@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "small_images.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/label_surface.hpp"
 #include "tunica/imaging/smooth_field.hpp"
@@ -162,6 +163,19 @@ TEST(LabelSurface, RefusesVesselsThatRunOutOfTheImageSideways) {
       },
       {30, 30, 40}, straight);
   EXPECT_NE(outcome(image, {}).find("runs out of the image"), std::string::npos) << outcome(image, {});
+}
+
+TEST(LabelSurface, NamesOfOpeningsAreCheckedAsTheyAreRead) {
+  config::Schema<SurfaceSettings> schema("surface", "Labels and vessel ends.");
+  SurfaceSettings::add_to(schema);
+  const auto why = test::message_of<InputError>([&] {
+    config::parse_text(schema,
+                       "openings:\n  inlet: {centre: [0 m, 0 m, 0 m]}\n  \"out*\": {centre: [0 m, 0 m, 1 m]}\n"
+                       "  Wall: {centre: [0 m, 0 m, 1 m]}\n");
+  });
+  for (const char* part : {"openings.out* (case.yaml:3): the name 'out*' of an opening has the character '*'",
+                           "an opening cannot be called 'Wall'"})
+    EXPECT_NE(why.find(part), std::string::npos) << why;
 }
 
 }  // namespace

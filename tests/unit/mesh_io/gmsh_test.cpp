@@ -210,6 +210,11 @@ TEST(Gmsh, NamesAnInterfaceWithoutPhysicalSurface) {
 
 TEST(Gmsh, RefusesWhatIsNotNamed) {
   Model model;
+  model.surfaces[0] = "in*";
+  model.surfaces[3] = "END/2";
+  EXPECT_TRUE(contains(refusal(model), "the name 'in*' of a face has the character '*'")) << refusal(model);
+  EXPECT_TRUE(contains(refusal(model), "the name 'END/2' of a face has the character '/'")) << refusal(model);
+  model = {};
   model.surfaces[3] = "";
   EXPECT_TRUE(contains(refusal(model), "2 of 32 boundary triangles lie in no named face: (1.5, ")) << refusal(model);
   model = {};

@@ -203,6 +203,21 @@ TEST(SimVascular, RefusesBadMeshes) {
   EXPECT_TRUE(contains(refusal({.inverted = true}), "1 of 72 elements are inverted or flat"));
 }
 
+TEST(SimVascular, RefusesNamesOfFacesThatServeNowhereElse) {
+  for (const auto& [name, part] : {std::pair{"out*", "'out*' of a face has the character '*'"},
+                                   {"M\xFCller", "'M\\xfcller' of a face is not UTF-8"},
+                                   {"X_MAX", "the name 'x_max' differs from 'X_MAX'"},
+                                   {"a,b", "has the character ','"}}) {
+    const TemporaryFolder folder;
+    write(folder.path(), block(), {});
+    const auto surfaces = folder.path() / "mesh-surfaces";
+    fs::copy_file(surfaces / "x_max.vtp", surfaces / (std::string(name) + ".vtp"));
+    const auto why = message_of<InputError>(
+        [&] { read_simvascular(folder.path(), mesh::RegionKind::lumen, "x", {.metres_per_unit = 0.01}); });
+    EXPECT_TRUE(contains(why, part)) << why;
+  }
+}
+
 TEST(SimVascular, RefusesMissingAndDamagedFiles) {
   const TemporaryFolder folder;
   const auto read = [&] { read_simvascular(folder.path(), mesh::RegionKind::lumen, "x", {.metres_per_unit = 1}); };

@@ -175,7 +175,7 @@ TEST_F(Material, AllErrorsAtOnce) {
                        soft + "incompressible: false\ntests: {../a: {uniaxial: {to: 1.2}}}\n");
   });
   EXPECT_NE(whole.find("no finite bulk modulus"), std::string::npos) << whole;
-  EXPECT_NE(whole.find("is no name of a file"), std::string::npos) << whole;
+  EXPECT_NE(whole.find("becomes the name of a file"), std::string::npos) << whole;
 }
 
 TEST_F(Material, IncompressibleOverridesTheBulkModulus) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
@@ -182,7 +183,7 @@ MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh lo
   input.seconds = phases.seconds;
   input.peak_memory = artifacts::peak_memory();
   const auto report = fibres_report(input);
-  return {std::move(loaded.data), report.dump(2) + "\n", report_text(report)};
+  return {std::move(loaded.data), config::json_text(report), report_text(report)};
 }
 
 std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const files::Say& say) {

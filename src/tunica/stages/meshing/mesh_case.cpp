@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/files/phases.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
@@ -88,7 +89,7 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   phases.end();
   const auto report = meshing::mesh_report(
       {data, layers, fidelity, prepared.thickness, tears, phases.seconds, artifacts::peak_memory()});
-  return {std::move(data), report.dump(2) + "\n", meshing::report_text(report),
+  return {std::move(data), config::json_text(report), meshing::report_text(report),
           mesh_page({mesh_case.title, mesh, regions, tears, prepared, report})};
 }
 

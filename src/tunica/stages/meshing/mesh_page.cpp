@@ -219,7 +219,7 @@ std::string tables(const json& r) {
                                         "th");
   const auto line = [&](const std::string& name, const json& s, const std::string& volume) {
     text +=
-        drawing::page::row({name, std::to_string(s["elements"].get<geometry::Index>()), volume,
+        drawing::page::row({drawing::page::escaped(name), std::to_string(s["elements"].get<geometry::Index>()), volume,
                             number(s["smallest_dihedral_deg"], 1) + "°",
                             number(s["dihedral_of_worst_0.01_percent_deg"], 1) + "°", number(s["edge_mm"]["mean"], 2)});
   };
@@ -227,8 +227,8 @@ std::string tables(const json& r) {
   line("all", r["shapes"], "");
   text += "</table>\n<h2>Faces</h2>\n<table>\n" + drawing::page::row({"face", "triangles", "area [mm²]"}, "th");
   for (const auto& face : r["faces"])
-    text += drawing::page::row(
-        {face["name"], std::to_string(face["triangles"].get<geometry::Index>()), number(face["area_mm2"], 1)});
+    text += drawing::page::row({drawing::page::escaped(face["name"].get<std::string>()),
+                                std::to_string(face["triangles"].get<geometry::Index>()), number(face["area_mm2"], 1)});
   text += "</table>\n<h2>Tears</h2>\n<table>\n" + drawing::page::row({"tear", "area [mm²]", "centre [mm]"}, "th");
   int count = 0;
   for (const auto& tear : r["tears"])
@@ -238,8 +238,8 @@ std::string tables(const json& r) {
   text += "</table>\n<h2>Thickness</h2>\n<table>\n" +
           drawing::page::row({"of", "5 % [mm]", "median [mm]", "95 % [mm]"}, "th");
   for (const auto& [name, values] : r["thickness_mm"].items())
-    text += drawing::page::row(
-        {name, number(values["5_percent"], 2), number(values["median"], 2), number(values["95_percent"], 2)});
+    text += drawing::page::row({drawing::page::escaped(name), number(values["5_percent"], 2),
+                                number(values["median"], 2), number(values["95_percent"], 2)});
   return text + "</table>\n";
 }
 

@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
@@ -186,7 +187,7 @@ void Post::write() {
     for (const auto& write : {write_tables, write_plots, write_fields})
       for (const auto& file : write(findings, folder_)) files.push_back(file);
     report["seconds"] = MPI_Wtime() - started_;
-    files::write_atomically(folder_ / report_file, report.dump(2) + "\n");
+    files::write_atomically(folder_ / report_file, config::json_text(report));
     log_->info(report_text(report));
   });
   log_->info(fmt::format("{} files in {}", report_file, folder_.string()));

@@ -13,6 +13,7 @@
 #include "tunica/artifacts/problem_input.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/prestress.hpp"
@@ -431,7 +432,7 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
                            {"change of velocity in the last step", steady_.velocity_change},
                            {"change of pressure in the last step", steady_.pressure_change}};
   json["seconds"] = MPI_Wtime() - started_;
-  parallel::on_root(comm_, [&] { files::write_atomically(folder_ / report_file, json.dump(2) + "\n"); });
+  parallel::on_root(comm_, [&] { files::write_atomically(folder_ / report_file, config::json_text(json)); });
 }
 
 void PrestressRun::find_wall() {

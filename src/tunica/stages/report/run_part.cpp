@@ -54,7 +54,7 @@ std::string curve(const files::CsvColumns& table, const std::string& column, con
 }
 
 std::string balance(const fs::path& folder) {
-  const files::CsvColumns table = files::read_csv(folder / "balance.csv", remedy);
+  const files::CsvColumns table = files::read_csv(folder / "balance.csv", remedy, files::Gaps::allowed);
   std::vector<std::vector<std::string>> rows;
   const auto largest = [&](const std::string& column, const std::string& name) {
     const auto k = column_with(table, column);
@@ -71,7 +71,7 @@ std::string balance(const fs::path& folder) {
 }
 
 std::string times(const fs::path& folder) {
-  const files::CsvColumns table = files::read_csv(folder / "steps.csv", remedy);
+  const files::CsvColumns table = files::read_csv(folder / "steps.csv", remedy, files::Gaps::allowed);
   std::vector<std::vector<std::string>> rows;
   for (const char* what : {"newton iterations", "linear iterations", "mesh iterations", "assembly", "set-up",
                            "linear [", "mesh [", "total"}) {
@@ -106,7 +106,7 @@ std::string run_part(const Results& r) {
   text += runs(r.manifest) + balance(folder);
   const bool has_faces = fs::exists(folder / "faces.csv");
   if (has_faces && r.post.is_null()) {
-    const files::CsvColumns faces = files::read_csv(folder / "faces.csv", remedy);
+    const files::CsvColumns faces = files::read_csv(folder / "faces.csv", remedy, files::Gaps::allowed);
     text += curves(faces, "pressure", "Mean pressure at the openings") + curves(faces, "flow", "Flow at the openings");
   }
   return text + "<h3>Time steps</h3>\n" + times(folder);

@@ -528,6 +528,7 @@ RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
     auto parsed = case_file::read_case(request.case_file);
     c.settings = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
+    for (const auto& warning : artifacts::unusual_outlets(c.settings)) c.warnings.push_back(format(warning));
     c.mesh = artifacts::load_mesh(c.settings);
   });
   parallel::broadcast(comm, c.text);

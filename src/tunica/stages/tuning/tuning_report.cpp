@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/series_file.hpp"
@@ -71,7 +72,7 @@ void write_json(const TuningReport& report, const case_file::TuningCase& outlets
   for (const auto& cycle : report.cycles) json["cycles"].push_back(json_of(cycle, outlets));
   if (!report.cycles.empty()) json["outlets of the last cycle"] = outlets_json(report.cycles.back(), outlets);
   json["seconds"] = report.seconds;
-  files::write_atomically(report.folder / report_file, json.dump(2) + "\n");
+  files::write_atomically(report.folder / report_file, config::json_text(json));
 }
 
 void write_table(const TuningReport& report, const case_file::Case& c, double pressure) {

@@ -1,0 +1,253 @@
+#include "tunica/case/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tunica/base/text.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/case/face_patterns.hpp"
+
+namespace tunica::case_file {
+
+namespace {
+
+namespace dimension = config::dimension;
+
+constexpr double ml_per_s = 1e-6, mmHg = 133.322387415;
+
+/// What tables of one kind usually reach, in SI units, and how that is said.
+struct Usual {
+  const char* what;
+  config::Dimension due;
+  double least, most;  ///< of the largest size
+  double likely;       ///< what a slip is rather taken for than for less
+  double shown_unit;
+  const char *shown, *text;
+};
+
+constexpr Usual usual_flow{"flow", dimension::volume_flow,  0.01 * ml_per_s, 1000 * ml_per_s, 1 * ml_per_s, ml_per_s,
+                           "ml/s", "0.01 ml/s to 1000 ml/s"};
+constexpr Usual usual_pressure{"pressure", dimension::pressure, 1 * mmHg, 400 * mmHg, 40 * mmHg, mmHg,
+                               "mmHg",     "1 mmHg to 400 mmHg"};
+constexpr Usual usual_velocity{"velocity", dimension::velocity, 1e-5, 10, 0.01, 1, "m/s", "1e-5 m/s to 10 m/s"};
+constexpr Usual usual_traction{"traction", dimension::pressure, 0, 400 * mmHg, 0, mmHg, "mmHg", "up to 400 mmHg"};
+
+constexpr double shortest_period = 0.2, longest_period = 3;                  // s: 300 and 20 beats a minute
+constexpr double shortest_time_constant = 0.01, longest_time_constant = 30;  // s
+constexpr double highest_mean_pressure = 300 * mmHg, arterial_pressure = 40 * mmHg;
+constexpr double least_outflow = 0.1 * ml_per_s;
+constexpr double usual_resistance = 1e12;   // Pa s/m^3, as the keys have it
+constexpr double usual_capacitance = 1e-7;  // m^3/Pa, likewise
+constexpr double longest_step = 0.02;       // s: more is warned of as it is read
+constexpr int fewest_steps = 20;            // of a period
+constexpr double least_part = 1e-3;         // of a table that does not repeat, which the run should come to
+
+std::string meant(double in_unit, const config::Dimension& due, double low, double high) {
+  const std::string likely = config::likely_meant(fmt::format("{:.6g}", in_unit), due, low, high);
+  return likely.empty() ? "check the unit and `scale`" : fmt::format("a slip of the unit? {} would be usual", likely);
+}
+
+class Checker {
+ public:
+  explicit Checker(const Case& c) : case_(c) {}
+  std::vector<Problem> warnings;
+
+  void tables() {
+    for (const auto& [face, condition] : case_.boundary) {
+      const std::string where = "boundary." + face;
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) course(where, flow->course, usual_flow, 1);
+      if (const auto* pressure = std::get_if<bc::Pressure>(&condition))
+        course(where, pressure->pressure, usual_pressure, 1);
+      if (const auto* velocity = std::get_if<bc::Velocity>(&condition))
+        course(where, velocity->course, usual_velocity, norm(velocity->value));
+      if (const auto* traction = std::get_if<bc::Traction>(&condition))
+        course(where, traction->course, usual_traction, norm(traction->vector));
+    }
+  }
+
+  void sign_of_inflow() {
+    double net = 0;
+    std::string into;
+    for (const auto& [face, condition] : case_.boundary)
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) {
+        const double mean = bc::inflow(*flow).mean();
+        net += mean;
+        into += (into.empty() ? "" : ", ") + face;
+        const bool inlet = text::lower(face).find("inlet") != std::string::npos;
+        if (mean < 0 && inlet) return warn_of_sign("boundary." + face, mean);
+      }
+    if (net < 0 && only_outlets_besides()) warn_of_sign("boundary: " + into, net);
+  }
+
+  void outlets() {
+    if (!case_.solves_fluid()) return;
+    for (const auto& [face, condition] : case_.boundary)
+      if (const auto* rcr = std::get_if<bc::Rcr>(&condition)) {
+        const double constant = rcr->distal * rcr->capacitance;
+        if (rcr->distal > usual_resistance || rcr->capacitance > usual_capacitance) continue;
+        if (constant < shortest_time_constant || constant > longest_time_constant)
+          warnings.push_back({"boundary." + face,
+                              fmt::format("the Windkessel empties with a time constant (distal x capacitance) of "
+                                          "{:.3g} s; {:.2g} s to {:.2g} s is usual, of a whole circulation 1 s to 2 s",
+                                          constant, shortest_time_constant, longest_time_constant),
+                              "a slip of the unit of `distal` or `capacitance`?"});
+      }
+    resistances();
+  }
+
+ private:
+  void course(const std::string& where, const bc::WaveformInput& input, const Usual& usual, double factor) {
+    const auto* source = std::get_if<bc::TableSource>(&input.source);
+    if (!source) return;
+    const auto table = bc::read_table(source->file);
+    const std::string file = fmt::format("{} ({})", where, text::printable(source->file.path.string(), 400));
+    const double size = largest_size(input) * factor;
+    if (size > usual.most || (size > 0 && size < usual.least))
+      warnings.push_back({file,
+                          fmt::format("the {} of the table reaches {:.4g} {}; {} is usual", usual.what,
+                                      size / usual.shown_unit, usual.shown, usual.text),
+                          factor == 1 ? meant(size / source->file.value_unit, usual.due, usual.likely, 0.8 * usual.most)
+                                      : "check the unit and `scale`"});
+    const auto waveform = bc::make_waveform(input);
+    if (waveform.period())
+      period(file, *waveform.period(), source->file.time_unit);
+    else
+      duration(file, table.times.back() - table.times.front(), source->file.time_unit);
+  }
+
+  void period(const std::string& where, double seconds, double unit) {
+    if (seconds < shortest_period || seconds > longest_period)
+      warnings.push_back({where,
+                          fmt::format("the period of the table is {:.4g} s; {:.2g} s to {:.2g} s is usual", seconds,
+                                      shortest_period, longest_period),
+                          meant(seconds / unit, dimension::time, shortest_period, longest_period)});
+    else if (case_.time && case_.time->step <= longest_step && seconds < fewest_steps * case_.time->step)
+      warnings.push_back({where,
+                          fmt::format("a period of {:.4g} s has {:.3g} steps of {:.4g} s; more than {} are usual",
+                                      seconds, seconds / case_.time->step, case_.time->step, fewest_steps),
+                          "take smaller steps: `time.step`"});
+  }
+
+  void duration(const std::string& where, double seconds, double unit) {
+    if (!case_.time) return;
+    const double run = static_cast<double>(case_.time->most_steps()) * case_.time->step;
+    if (run < least_part * seconds)
+      warnings.push_back(
+          {where,
+           fmt::format("the table lasts {:.4g} s, the run {:.4g} s: no more than its beginning is used", seconds, run),
+           meant(seconds / unit, dimension::time, 0.5 * run, 100 * run)});
+  }
+
+  void warn_of_sign(const std::string& where, double mean) {
+    warnings.push_back({where,
+                        fmt::format("the flow is {:.4g} ml/s out of the vessel on average; blood usually flows in "
+                                    "there",
+                                    -mean / ml_per_s),
+                        "the wrong sign? `positive: inflow` and `positive: outflow` say what a positive number means "
+                        "(in a .flow file: outflow)"});
+  }
+
+  /// Is it a lumen face, as far as its name tells before the mesh is read?
+  static bool may_be_opening(const std::string& face) { return !text::lower(face).starts_with("wall"); }
+
+  /// Do all openings without a given flow resist what flows out?
+  bool only_outlets_besides() const {
+    bool any = false;
+    for (const auto& [face, condition] : case_.boundary) {
+      const bool load =
+          std::holds_alternative<bc::Pressure>(condition) || std::holds_alternative<bc::Traction>(condition);
+      if (std::holds_alternative<bc::Velocity>(condition) || (load && may_be_opening(face))) return false;
+      any = any || std::holds_alternative<bc::Resistance>(condition) || std::holds_alternative<bc::Rcr>(condition);
+    }
+    return any;
+  }
+
+  /// Outlets in parallel: a pressure P drives P * conductance - driven.
+  struct Parallel {
+    double conductance = 0, driven = 0;
+  };
+
+  /// None where a pattern stands for any number of outlets, or an outlet does not resist. What is beyond the usual has
+  /// been warned of as it was read.
+  std::optional<Parallel> parallel_outlets() const {
+    Parallel all;
+    for (const auto& [face, condition] : case_.boundary) {
+      double resistance = 0, distal_pressure = 0;
+      if (const auto* r = std::get_if<bc::Resistance>(&condition))
+        resistance = r->resistance, distal_pressure = r->distal_pressure;
+      else if (const auto* rcr = std::get_if<bc::Rcr>(&condition))
+        resistance = rcr->proximal + rcr->distal, distal_pressure = rcr->distal_pressure;
+      else
+        continue;
+      if (is_pattern(face) || !(resistance > 0) || resistance > usual_resistance) return std::nullopt;
+      all.conductance += 1 / resistance;
+      all.driven += distal_pressure / resistance;
+    }
+    return all.conductance > 0 ? std::optional(all) : std::nullopt;
+  }
+
+  /// Mean pressure that the mean inflow needs, or mean flow that a given pressure drives.
+  void resistances() {
+    const auto outlets = parallel_outlets();
+    if (!outlets) return;
+    double inflow = 0, pressure = 0;
+    bool flow_is_given = false;
+    for (const auto& [face, condition] : case_.boundary) {
+      flow_is_given = flow_is_given || std::holds_alternative<bc::Flow>(condition) ||
+                      std::holds_alternative<bc::Velocity>(condition);
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) inflow += bc::inflow(*flow).mean();
+      if (const auto* given = std::get_if<bc::Pressure>(&condition); given && may_be_opening(face))
+        pressure = std::max(pressure, bc::make_waveform(given->pressure).mean());
+    }
+    const double resistance = ml_per_s / outlets->conductance / mmHg;
+    const double needed = (inflow + outlets->driven) / outlets->conductance,
+                 driven = pressure * outlets->conductance - outlets->driven;
+    const char* remedy = "a slip of the unit of the resistances, or of the flow or pressure?";
+    if (only_outlets_besides() && inflow > 0 && inflow < usual_flow.most && needed > highest_mean_pressure)
+      warnings.push_back(
+          {"boundary",
+           fmt::format("a mean inflow of {:.4g} ml/s through the resistances of the outlets, {:.4g} mmHg "
+                       "s/ml in parallel, needs a mean pressure of {:.4g} mmHg; up to {:.0f} mmHg is usual",
+                       inflow / ml_per_s, resistance, needed / mmHg, highest_mean_pressure / mmHg),
+           remedy});
+    if (!flow_is_given && pressure > arterial_pressure && driven > 0 && driven < least_outflow)
+      warnings.push_back(
+          {"boundary",
+           fmt::format("a mean pressure of {:.4g} mmHg drives {:.3g} ml/s through the resistances of the "
+                       "outlets, {:.4g} mmHg s/ml in parallel; more than {:.1f} ml/s is usual",
+                       pressure / mmHg, driven / ml_per_s, resistance, least_outflow / ml_per_s),
+           remedy});
+  }
+
+  const Case& case_;
+};
+
+}  // namespace
+
+double largest_size(const bc::WaveformInput& input) {
+  double largest = 0;
+  if (const auto* constant = std::get_if<double>(&input.source)) largest = std::abs(*constant);
+  if (const auto* step = std::get_if<bc::Step>(&input.source)) largest = std::abs(step->value);
+  if (const auto* source = std::get_if<bc::TableSource>(&input.source))
+    for (const double v : bc::read_table(source->file).values) largest = std::max(largest, std::abs(v));
+  return largest * std::abs(input.scale);
+}
+
+std::vector<Problem> implausible_values(const Case& c) {
+  Checker checker(c);
+  checker.tables();
+  if (c.solves_fluid()) checker.sign_of_inflow();
+  if (!c.outlets) checker.outlets();
+  return std::move(checker.warnings);
+}
+
+std::vector<Problem> implausible_outlets(const Case& c) {
+  Checker checker(c);
+  checker.outlets();
+  return std::move(checker.warnings);
+}
+
+}  // namespace tunica::case_file
