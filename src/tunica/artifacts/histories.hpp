@@ -11,21 +11,41 @@
 #include "tunica/bc/outlets.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/coupling/monitors.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::artifacts {
+
+/// A place where the steps of a history do not follow each other.
+struct HistoryBreak {
+  std::size_t line;  ///< number of the line of numbers after it, from 0
+  std::string what;  ///< "the lines of steps 4 to 6 are missing"
+};
+/// Lost and doubled lines of a history that has one for every step.
+std::vector<HistoryBreak> breaks_of(const files::CsvColumns& history);
 
 /// One CSV file. The first column is the number of the step, an integer. Not collective: for one rank.
 class CsvTable {
  public:
-  /// Begins the file anew, or with `continue_from` keeps the lines up to that step. `columns` after the first one, with
-  /// their units. Throws InputError when the file cannot be written or is to be continued and has other columns.
+  enum class Lines { for_every_step, for_some_steps };
+
+  /// Begins the file anew, or with `continue_from` keeps the lines up to that step; those that are no numbers or repeat
+  /// a step are dropped. `columns` after the first one, with their units. Throws InputError when the file cannot be
+  /// written or is to be continued and has other columns.
   CsvTable(const std::filesystem::path& file, std::vector<std::string> columns,
-           std::optional<std::int64_t> continue_from);
+           std::optional<std::int64_t> continue_from, Lines lines = Lines::for_some_steps);
+
+  /// What was found wrong with the lines that are kept: one damaged, repeated or missing, with its place.
+  const std::vector<std::string>& damage() const { return damage_; }
+  /// Of the lines that are kept; none when there is no line.
+  std::optional<std::int64_t> first_step() const { return first_step_; }
+  const std::filesystem::path& file() const { return file_; }
 
   /// Adds a line, which is on disk when the call returns. Throws SolverError when that fails.
   void append(std::int64_t step, std::span<const double> values);
 
  private:
+  std::vector<std::string> damage_;
+  std::optional<std::int64_t> first_step_;
   std::filesystem::path file_;
   std::size_t columns_;
 };
@@ -53,6 +73,9 @@ class Histories {
             const std::vector<bc::Outlet>& outlets, std::optional<std::int64_t> continue_from);
 
   void append(const StepHistory& step, const std::vector<bc::Outlet>& outlets);
+
+  /// What was found wrong with the histories that are continued.
+  std::vector<std::string> damage() const;
 
   static std::vector<std::string> files() {
     return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv"};

@@ -56,23 +56,32 @@ void Log::warning(std::string_view text) { write("warning", text); }
 void Log::error(std::string_view text) { write("error", text); }
 
 void Log::write(std::string_view kind, std::string_view text) {
-  if (screen_ != nullptr) {
-    const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
-    const char* erase = status_.empty() ? "" : erase_line;
-    fmt::print(screen_, "{}{}{}\n{}", erase, prefix, text, status_);
-    std::fflush(screen_);
-  }
-  if (file_ != nullptr) {
-    fmt::print(file_, "{} {:7} {}\n", time_stamp(), kind, text);
-    std::fflush(file_);
-  }
+  const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
+  write_screen(fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_));
+  write_file(kind, text);
+}
+
+void Log::write_screen(const std::string& text) {
+  if (screen_ == nullptr) return;
+  const bool written = std::fwrite(text.data(), 1, text.size(), screen_) == text.size() && std::fflush(screen_) == 0;
+  if (written) return;
+  const int error = errno;
+  screen_ = nullptr;
+  write_file("warning",
+             fmt::format("the screen takes no more messages ({}): they are in this file", std::strerror(error)));
+}
+
+void Log::write_file(std::string_view kind, std::string_view text) {
+  if (file_ == nullptr) return;
+  const std::string line = fmt::format("{} {:7} {}\n", time_stamp(), kind, text);
+  std::fwrite(line.data(), 1, line.size(), file_);
+  std::fflush(file_);
 }
 
 void Log::status(std::string_view line) {
   if (screen_ == nullptr || !on_terminal_ || (line.empty() && status_.empty())) return;
   status_ = line;
-  fmt::print(screen_, "{}{}", erase_line, status_);
-  std::fflush(screen_);
+  write_screen(erase_line + status_);
 }
 
 int Log::columns() const {

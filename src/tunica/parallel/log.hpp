@@ -15,7 +15,8 @@ namespace tunica::parallel {
 bool is_terminal(std::FILE* stream);
 
 /// All ranks call alike and rank 0 speaks; a finding of another rank travels to rank 0 first. Lines reach the file at
-/// once, so that a run that dies leaves its log.
+/// once, so that a run that dies leaves its log. A screen that takes no more (a closed pipe, a terminal that is gone)
+/// is left alone from then on, and the file says so.
 class Log {
  public:
   struct Targets {
@@ -32,6 +33,8 @@ class Log {
   void info(std::string_view text);
   void warning(std::string_view text);
   void error(std::string_view text);
+  /// An error that the screen is told of elsewhere: into the file alone.
+  void note_error(std::string_view text) { write_file("error", text); }
 
   /// One line kept below all others on a terminal and replaced by the next call; empty removes it. Never in the file,
   /// and nothing at all where the screen is no terminal.
@@ -44,6 +47,8 @@ class Log {
 
  private:
   void write(std::string_view kind, std::string_view text);
+  void write_screen(const std::string& text);
+  void write_file(std::string_view kind, std::string_view text);
 
   std::FILE* screen_ = nullptr;  // both null on ranks other than 0
   std::FILE* file_ = nullptr;

@@ -37,6 +37,25 @@ TEST(StopSignals, ForgetTheRequestAndGiveBackEarlierHandlers) {
   EXPECT_FALSE(stop_requested(MPI_COMM_WORLD));
 }
 
+TEST(StopSignals, AHangUpAsksForTheEndHoweverOftenItComes) {
+  const StopSignals signals;
+  std::raise(SIGHUP);
+  EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGHUP);
+  usleep(600000);
+  std::raise(SIGHUP);
+  EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGHUP);
+}
+
+TEST(StopSignals, AHangUpThatIsIgnoredStaysSo) {
+  std::signal(SIGHUP, SIG_IGN);
+  {
+    const StopSignals signals;
+    std::raise(SIGHUP);
+    EXPECT_EQ(stop_requested(MPI_COMM_WORLD), 0);
+  }
+  std::signal(SIGHUP, SIG_DFL);
+}
+
 TEST(StopSignals, EndTheProcessAtTheSecondRequest) {
   const pid_t child = fork();
   if (child == 0) {
