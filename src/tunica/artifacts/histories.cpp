@@ -84,6 +84,7 @@ class KeptLines {
   }
   const std::string& text() const { return text_; }
   std::optional<std::int64_t> first() const { return first_; }
+  std::optional<std::int64_t> last() const { return previous_; }
   std::vector<std::string> damage() const { return shortened(damage_, file_); }
 
  private:
@@ -143,6 +144,7 @@ CsvTable::CsvTable(const fs::path& file, std::vector<std::string> columns, std::
     text += kept.text();
     damage_ = kept.damage();
     first_step_ = kept.first();
+    last_step_ = kept.last();
   }
   try {
     files::write_atomically(file, text);

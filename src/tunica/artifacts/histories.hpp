@@ -38,6 +38,7 @@ class CsvTable {
   const std::vector<std::string>& damage() const { return damage_; }
   /// Of the lines that are kept; none when there is no line.
   std::optional<std::int64_t> first_step() const { return first_step_; }
+  std::optional<std::int64_t> last_step() const { return last_step_; }
   const std::filesystem::path& file() const { return file_; }
 
   /// Adds a line, which is on disk when the call returns. Throws SolverError when that fails.
@@ -45,7 +46,7 @@ class CsvTable {
 
  private:
   std::vector<std::string> damage_;
-  std::optional<std::int64_t> first_step_;
+  std::optional<std::int64_t> first_step_, last_step_;
   std::filesystem::path file_;
   std::size_t columns_;
 };

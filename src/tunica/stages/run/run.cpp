@@ -441,8 +441,11 @@ bool Run::take_step() {
 bool Run::finish_cycle(bool anew) {
   const auto& settings = *case_.time->cycles;
   const int cycle = static_cast<int>(grid_.steps_done() / case_.time->steps_per_cycle());
-  CycleChange change =
-      parallel::on_root(comm_, [&] { return anew ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle); });
+  CycleChange change = parallel::on_root(comm_, [&] {
+    // A run may have ended after the step and before the line of its cycle.
+    const bool lacks_line = folder_has_results_ && !cycles_->has(state_.step);
+    return anew || lacks_line ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle);
+  });
   parallel::broadcast(comm_, change);
   const bool periodic = change.below(settings.tolerance), last = cycle == settings.most;
   if (periodic || !last)
