@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "commands.hpp"
+#include "output.hpp"
 #include "tunica/base/error.hpp"
 #include "version.hpp"
 
@@ -28,10 +29,7 @@ void hold_on_to_streams() {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  hold_on_to_streams();
+int run(int argc, char** argv) {
   CLI::App app("Fluid-structure interaction in aortic dissection.", "tunica");
   app.set_version_flag("--version", tunica::app::version());
   app.require_subcommand(1);
@@ -68,4 +66,11 @@ int main(int argc, char** argv) {
     return fail(solver_failure, "unknown error");
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tunica::app::let_writes_beyond_limits_fail();
+  return tunica::app::with_standard_output(run(argc, argv));
 }

@@ -8,6 +8,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/launcher.hpp"
 #include "tunica/parallel/petsc.hpp"
 #include "tunica/parallel/shared_error.hpp"
 
@@ -36,6 +37,7 @@ int end_all(const char* error) {
 int in_session(const std::function<int()>& action) {
   const parallel::Session session;
   try {
+    parallel::refuse_another_launcher(parallel::size(MPI_COMM_WORLD));
     return action();
   } catch (const InputError& error) {
     return report(input_error, error);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
@@ -130,10 +131,9 @@ class Reader {
 
 class Writer {
  public:
-  explicit Writer(const fs::path& file) : file_(file), stream_(file, std::ios::binary | std::ios::trunc) { check(); }
+  explicit Writer(const fs::path& file) : file_(file) {}
   void write(const void* data, std::size_t bytes) {
-    stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
-    check();
+    file_.write(data, bytes);
     hash_.add(data, bytes);
   }
   void header(const std::string& text) {
@@ -146,41 +146,29 @@ class Writer {
   void finish() {
     const std::uint64_t hash = hash_.value();
     write(&hash, sizeof hash);
-    stream_.close();
-    check();
+    file_.finish();
   }
 
  private:
-  void check() const {
-    if (!stream_)
-      throw SolverError(fmt::format("cannot write the checkpoint {} ({})", file_.string(), std::strerror(errno)));
-  }
-  fs::path file_;
-  std::ofstream stream_;
+  files::AtomicFile file_;
   files::Hash hash_;
 };
 
 }  // namespace
 
 void write_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const Checkpoint& checkpoint) {
-  const fs::path partial = file.string() + ".partial";
   std::optional<Writer> writer;
   parallel::on_root(mesh.comm, [&] {
     std::error_code exists_or_fails_below;
     fs::create_directories(file.parent_path(), exists_or_fails_below);
-    writer.emplace(partial);
+    writer.emplace(file);
     writer->header(header_of(checkpoint, mesh.global_nodes).dump());
   });
   for (const auto field : nodal_fields()) {
     const auto values = parallel::gather_by_original_id(node_order(mesh), checkpoint.state.*field, 4);
     parallel::on_root(mesh.comm, [&] { writer->write(values.data(), values.size() * sizeof(double)); });
   }
-  parallel::on_root(mesh.comm, [&] {
-    writer->finish();
-    std::error_code error;
-    fs::rename(partial, file, error);
-    if (error) throw SolverError(fmt::format("cannot write the checkpoint {} ({})", file.string(), error.message()));
-  });
+  parallel::on_root(mesh.comm, [&] { writer->finish(); });
 }
 
 std::string damage_of(const fs::path& file) {

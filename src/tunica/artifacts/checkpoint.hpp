@@ -19,8 +19,8 @@ struct Checkpoint {
   std::uint64_t case_hash = 0, mesh_hash = 0;
 };
 
-/// Writes `checkpoint` to a neighbouring file and renames it to `file`, so that an interruption leaves either the whole
-/// file or none. Nodal fields stand in the order of the mesh files. Throws SolverError on all ranks when that fails.
+/// Writes `checkpoint` as an AtomicFile, so that an interruption, also of the machine, leaves either the whole file or
+/// none. Nodal fields stand in the order of the mesh files. Throws SolverError on all ranks when that fails.
 /// Collective.
 void write_checkpoint(const std::filesystem::path& file, const distributed::DistributedMesh& mesh,
                       const Checkpoint& checkpoint);

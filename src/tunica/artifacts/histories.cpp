@@ -6,12 +6,11 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/files/atomic_file.hpp"
 
 namespace tunica::artifacts {
 
@@ -158,13 +157,10 @@ void CsvTable::append(std::int64_t step, std::span<const double> values) {
   std::string line = std::to_string(step);
   for (const double v : values) line += fmt::format(",{:.10g}", v);
   line += "\n";
-  // Opened each time: a file that was moved or deleted meanwhile is noticed and the line is on disk afterwards.
-  std::FILE* out = std::fopen(file_.c_str(), "r+");
-  bool written = out != nullptr && std::fseek(out, 0, SEEK_END) == 0 &&
-                 std::fwrite(line.data(), 1, line.size(), out) == line.size();
-  if (out != nullptr) written = std::fclose(out) == 0 && written;
-  if (!written) throw SolverError(fmt::format("the history {} cannot be written", file_.string()));
+  files::append(file_, line);
 }
+
+void CsvTable::sync() const { files::sync_file(file_); }
 
 Histories::Histories(const fs::path& folder, const case_file::Case& c, const std::vector<std::string>& faces,
                      const std::vector<bc::Outlet>& outlets, std::optional<std::int64_t> continue_from)
@@ -249,6 +245,11 @@ std::vector<double> Histories::balance_line(const StepHistory& step) const {
           per_si_.length * r.max_displacement,
           per_si_.velocity * r.max_velocity,
           r.mesh_quality};
+}
+
+void Histories::sync() const {
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_})
+    if (*table) (*table)->sync();
 }
 
 void Histories::append(const StepHistory& step, const std::vector<bc::Outlet>& outlets) {

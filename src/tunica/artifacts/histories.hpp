@@ -41,8 +41,12 @@ class CsvTable {
   std::optional<std::int64_t> last_step() const { return last_step_; }
   const std::filesystem::path& file() const { return file_; }
 
-  /// Adds a line, which is on disk when the call returns. Throws SolverError when that fails.
+  /// Adds a line, whole or not at all. Throws SolverError when that fails: also when the file was moved or removed
+  /// meanwhile.
   void append(std::int64_t step, std::span<const double> values);
+
+  /// Brings all lines to the disk. Throws SolverError when that fails.
+  void sync() const;
 
  private:
   std::vector<std::string> damage_;
@@ -74,6 +78,8 @@ class Histories {
             const std::vector<bc::Outlet>& outlets, std::optional<std::int64_t> continue_from);
 
   void append(const StepHistory& step, const std::vector<bc::Outlet>& outlets);
+  /// As CsvTable::sync, for all of them.
+  void sync() const;
 
   /// What was found wrong with the histories that are continued.
   std::vector<std::string> damage() const;

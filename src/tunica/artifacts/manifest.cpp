@@ -45,10 +45,12 @@ ordered_json libraries() {
 }
 
 /// Does `name` look like <region>_<step>.pvtu or <region>_<step>_<rank>.vtu?
-bool is_series_file(const std::string& name, const std::string& region) {
+bool is_series_file(std::string name, const std::string& region) {
+  if (const std::string ending = files::temporary_ending; name.ends_with(ending))  // of a process that was killed
+    name.resize(name.size() - ending.size());
   if (!name.starts_with(region + "_") || !(name.ends_with(".vtu") || name.ends_with(".pvtu"))) return false;
-  const auto end = name.begin() + static_cast<std::ptrdiff_t>(name.rfind('.'));
-  return std::all_of(name.begin() + static_cast<std::ptrdiff_t>(region.size()) + 1, end,
+  const auto end = name.cbegin() + static_cast<std::ptrdiff_t>(name.rfind('.'));
+  return std::all_of(name.cbegin() + static_cast<std::ptrdiff_t>(region.size()) + 1, end,
                      [](unsigned char c) { return std::isdigit(c) || c == '_'; });
 }
 

@@ -17,6 +17,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
+#include "tunica/mesh_io/vtk_writer.hpp"
 #include "tunica/wall/output.hpp"
 
 namespace tunica::artifacts {
@@ -113,11 +114,10 @@ void write_prestress(const fs::path& file, const mesh::MeshData& data, wall::Pre
   grid->GetCellData()->AddArray(prestress);
   if (kind == wall::PrestressKind::stress) add_invariants(grid, values);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(file.c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  if (writer->Write() != 1) throw SolverError(file.string() + ": cannot be written");
+  mesh_io::write_vtk(*writer, file);
 }
 
 void read_prestress(const fs::path& file, mesh::MeshData& data) {

@@ -5,7 +5,8 @@
 #include "tunica/base/error.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/config/document.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::case_file {
 
@@ -36,7 +37,7 @@ void write_variant(const VariantRequest& request) {
   if (!request.overwrite && std::filesystem::exists(request.output))
     throw InputError(request.output.string(), "is there already", "give another name, or --overwrite");
   const std::string text = variant(request);
-  if (const auto folder = request.output.parent_path(); !folder.empty()) std::filesystem::create_directories(folder);
+  if (const auto folder = request.output.parent_path(); !folder.empty()) files::make_folder(folder);
   files::write_atomically(request.output, text);
 }
 

@@ -8,6 +8,7 @@
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkFloatArray.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -20,6 +21,8 @@
 #include <vector>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -96,7 +99,8 @@ void write_grid(vtkUnstructuredGrid* grid, const fs::path& path, bool compress) 
   silent->SetCallback(discard_message);
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
   writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->SetFileName(path.c_str());
+  // Into memory: VTK itself reports success for files that a full disk has cut off.
+  writer->WriteToOutputStringOn();
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
@@ -105,12 +109,9 @@ void write_grid(vtkUnstructuredGrid* grid, const fs::path& path, bool compress) 
     writer->SetCompressorTypeToZLib();
   else
     writer->SetCompressorTypeToNone();
-  const bool written = writer->Write() != 0;
-  const auto code = writer->GetErrorCode();
-  if (written && code == vtkErrorCode::NoError) return;
-  throw SolverError(fmt::format(
-      "cannot write {}: {}", path.string(),
-      code == vtkErrorCode::OutOfDiskSpaceError ? "the disk is full" : fmt::format("VTK error code {}", code)));
+  if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
+    throw SolverError(fmt::format("cannot write {}: VTK error code {}", path.string(), writer->GetErrorCode()));
+  files::write_atomically(path, writer->GetOutputString());
 }
 
 bool in_region(const NodalArray& a, std::size_t region) {
@@ -125,6 +126,9 @@ std::vector<files::ArrayHeader> headers(const Arrays& arrays, std::size_t region
     if (in_region(a, region)) result.push_back({a.name, a.components});
   return result;
 }
+
+/// As names of files are tried with.
+constexpr std::int64_t largest_step = 999999999;
 
 std::string file_stem(const std::string& region, std::int64_t step) { return fmt::format("{}_{:06}", region, step); }
 
@@ -157,15 +161,11 @@ struct ResultsWriter::Implementation {
       if (region.name.empty() || region.name.find_first_of("/&<>\"") != std::string::npos)
         throw InputError("region \"" + region.name + "\"", "this name cannot be part of a file name",
                          "rename the region");
-    const auto probe = options.directory / "write_test";
-    try {
-      fs::create_directories(options.directory);
-      files::write_atomically(probe, "");
-      fs::remove(probe);
-    } catch (const std::exception& error) {
-      throw InputError(options.directory.string(), fmt::format("results cannot be written here: {}", error.what()),
-                       "name a directory that can be created and written");
-    }
+    files::make_folder(options.directory);
+    std::vector<fs::path> names;
+    for (const auto& region : mesh.regions)
+      names.push_back(fmt::format("{}_{}.vtu", file_stem(region.name, largest_step), parallel::size(mesh.comm)));
+    files::try_outputs(options.directory, names);
     if (!options.continue_from) return;
     for (std::size_t r = 0; r < series.size(); ++r) {
       series[r] = files::read_pvd(pvd(r));
@@ -185,6 +185,8 @@ struct ResultsWriter::Implementation {
         if (in_region(a, r)) add_cells(piece, a);
       const auto path = options.directory / fmt::format("{}_{}.vtu", file_stem(mesh.regions[r].name, step), rank);
       write_grid(piece.grid, path, options.compress);
+      // VTK has noted ranges there and would write them next time: files of a continued run would not be the same.
+      piece.grid->GetPoints()->GetData()->GetInformation()->Clear();
       piece.grid->GetPointData()->Initialize();
       piece.grid->GetCellData()->Initialize();
     }

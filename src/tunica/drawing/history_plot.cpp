@@ -7,6 +7,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/csv_file.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::drawing {
 
@@ -31,6 +32,7 @@ std::string unit_of(const std::string& header) {
 }  // namespace
 
 std::vector<std::string> plot_history(const HistoryPlotOptions& options) {
+  files::try_output(options.output);
   const files::CsvColumns history = files::read_csv(options.history, "name a history of a run, such as faces.csv");
   const std::size_t x = find(history, options.x).front();
   std::vector<std::size_t> chosen;

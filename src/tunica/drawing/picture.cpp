@@ -26,6 +26,7 @@
 #include <vtkTableBasedClipDataSet.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWarpVector.h>
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLGenericDataObjectReader.h>
@@ -40,6 +41,8 @@
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/picture_data.hpp"
 #include "tunica/drawing/picture_lines.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::drawing {
 namespace {
@@ -409,17 +412,21 @@ void write_picture(vtkRenderWindow& window, const std::string& file) {
   image->SetInput(&window);
   image->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.c_str());
+  writer->WriteToMemoryOn();
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
-  if (writer->GetErrorCode() != 0)
-    throw InputError(file, "cannot be written", "check that the folder is writable and the disk not full");
+  vtkUnsignedCharArray* png = writer->GetResult();
+  if (writer->GetErrorCode() != 0 || !png || png->GetNumberOfValues() == 0)
+    throw SolverError(fmt::format("cannot write {}: VTK error code {}", file, writer->GetErrorCode()));
+  files::write_atomically(
+      file, {reinterpret_cast<const char*>(png->GetPointer(0)), static_cast<std::size_t>(png->GetNumberOfValues())});
 }
 
 }  // namespace
 
 PictureSummary render(const PictureOptions& options) {
   check(options);
+  files::try_output(options.output);
   PictureSummary summary;
   std::vector<std::string> files;
   for (const auto& input : options.inputs) {

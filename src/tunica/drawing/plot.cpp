@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/svg_image.hpp"
+#include "tunica/files/atomic_file.hpp"
 
 namespace tunica::drawing {
 namespace {
@@ -274,10 +274,7 @@ void write_plot(const std::string& file, const std::vector<Series>& series, cons
   const std::string svg = draw_plot(series, options);
   if (file.ends_with(".png")) return write_png(file, svg, png_scale);
   if (!file.ends_with(".svg")) throw InputError(file, "is no name of a plot", "let it end in .svg or .png");
-  std::ofstream stream(file);
-  stream << svg;
-  stream.close();
-  if (!stream) throw InputError(file, "cannot be written", "check that the folder exists and is writable");
+  files::write_atomically(file, svg);
 }
 
 }  // namespace tunica::drawing

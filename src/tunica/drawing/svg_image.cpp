@@ -1,5 +1,6 @@
 #include "tunica/drawing/svg_image.hpp"
 
+#include <fmt/format.h>
 #include <librsvg/rsvg.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <stdexcept>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/atomic_file.hpp"
 
 namespace tunica::drawing {
 namespace {
@@ -19,6 +21,11 @@ using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
   const std::string message = error == nullptr ? "the document has no size in pixels" : error->message;
   g_clear_error(&error);
   throw std::invalid_argument("write_png: " + message);
+}
+
+cairo_status_t append(void* text, const unsigned char* data, unsigned int bytes) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), bytes);
+  return CAIRO_STATUS_SUCCESS;
 }
 
 }  // namespace
@@ -39,9 +46,11 @@ void write_png(const std::string& file, const std::string& svg, int scale) {
   cairo_paint(context.get());
   const RsvgRectangle whole{0.0, 0.0, width, height};
   if (rsvg_handle_render_document(document.get(), context.get(), &whole, &error) == FALSE) refuse(error);
-  if (const auto status = cairo_surface_write_to_png(surface.get(), file.c_str()); status != CAIRO_STATUS_SUCCESS)
-    throw InputError(file, std::string("cannot be written: ") + cairo_status_to_string(status),
-                     "check that the folder exists and is writable");
+  std::string png;
+  if (const auto status = cairo_surface_write_to_png_stream(surface.get(), append, &png);
+      status != CAIRO_STATUS_SUCCESS)
+    throw SolverError(fmt::format("cannot write {}: {}", file, cairo_status_to_string(status)));
+  files::write_atomically(file, png);
 }
 
 }  // namespace tunica::drawing

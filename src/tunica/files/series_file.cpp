@@ -34,23 +34,6 @@ std::string attribute(const std::string& line, const std::string& name) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& path, const std::string& text) {
-  auto temporary = path;
-  temporary += ".part";
-  std::error_code error;
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) error = std::error_code(errno, std::generic_category());
-  }
-  if (!error) std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw SolverError(fmt::format("cannot write {}: {}", path.string(), error.message()));
-}
-
 std::vector<SeriesEntry> read_pvd(const std::filesystem::path& path) {
   std::vector<SeriesEntry> series;
   if (!std::filesystem::exists(path)) return series;

@@ -5,16 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "tunica/files/atomic_file.hpp"
+
 namespace tunica::files {
 
 struct SeriesEntry {
   double time;       ///< s
   std::string file;  ///< relative to the .pvd, without characters that XML escapes
 };
-
-/// Writes `text` to a neighbouring file and renames it to `path`. Throws SolverError when that fails, and then leaves
-/// an older file as it was.
-void write_atomically(const std::filesystem::path& path, const std::string& text);
 
 /// Reads what `pvd_text` made; an empty series when there is no such file. Throws InputError when it is another text.
 std::vector<SeriesEntry> read_pvd(const std::filesystem::path& path);

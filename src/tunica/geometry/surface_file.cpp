@@ -20,6 +20,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 #include "tunica/mesh_io/vtk_messages.hpp"
+#include "tunica/mesh_io/vtk_writer.hpp"
 
 namespace tunica::geometry {
 
@@ -79,11 +80,8 @@ TriangleSurface from_vtk(const std::filesystem::path& path) {
 
 void write(vtkPolyData* data, const std::filesystem::path& path) {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  const mesh_io::FirstVtkMessage message(writer.Get());
-  writer->SetFileName(path.c_str());
   writer->SetInputData(data);
-  if (writer->Write() != 1 || !message.text().empty())
-    throw InputError(path.string(), "cannot be written: " + message.text(), "choose a folder that can be written to");
+  mesh_io::write_vtk(*writer, path);
 }
 
 vtkNew<vtkPoints> vtk_points(const std::vector<Point>& from) {

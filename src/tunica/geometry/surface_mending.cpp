@@ -33,8 +33,12 @@ class Complaints {
       // Usually in the folder of a mesh that will not be; if it cannot be made, writing says so.
       std::error_code ignored;
       if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), ignored);
-      write_spots(spots_, file_);
-      problems_.back().remedy += fmt::format(" (all places are in {})", file_.string());
+      try {
+        write_spots(spots_, file_);
+        problems_.back().remedy += fmt::format(" (all places are in {})", file_.string());
+      } catch (const SolverError& error) {  // the problems are what counts
+        problems_.back().remedy += fmt::format(" (the file of all places is missing: {})", error.what());
+      }
     }
     throw InputError(problems_);
   }

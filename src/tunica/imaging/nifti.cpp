@@ -9,8 +9,12 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkShortArray.h>
+#include <zlib.h>
+
+#include <vector>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/imaging/image_formats.hpp"
 #include "tunica/mesh_io/vtk_messages.hpp"
 
@@ -51,6 +55,22 @@ ImageFrame read_frame(vtkNIFTIImageReader* reader, vtkImageData* data, const std
     origin[a] = unit * sign[a] * matrix->GetElement(a, 3);
   }
   return checked_frame(size, steps, origin, path);
+}
+
+constexpr std::int64_t nifti_header = 352;  // bytes
+
+/// What a file, compressed or not, holds until its end or until it is damaged [bytes].
+std::int64_t uncompressed_size(const std::filesystem::path& path) {
+  gzFile file = gzopen(path.c_str(), "rb");
+  if (!file) return 0;
+  std::vector<char> block(1 << 16);
+  std::int64_t size = 0;
+  for (int n = 1; n > 0;) {
+    n = gzread(file, block.data(), static_cast<unsigned>(block.size()));
+    if (n > 0) size += n;
+  }
+  gzclose(file);
+  return size;
 }
 
 }  // namespace
@@ -97,11 +117,20 @@ void write_nifti(const LabelImage& image, const std::filesystem::path& path) {
   data->SetSpacing(spacing);
   vtkNew<vtkNIFTIImageWriter> writer;
   const mesh_io::FirstVtkMessage message(writer.Get());
-  writer->SetFileName(path.c_str());
   writer->SetInputData(data);
   writer->SetSFormMatrix(matrix);
-  writer->Write();
-  if (!message.text().empty()) throw SolverError(path.string() + " cannot be written: " + message.text());
+  const std::string ending = path.extension() == ".gz" ? ".nii.gz" : ".nii";
+  files::write_atomically(path, ending, [&](const std::filesystem::path& temporary) {
+    writer->SetFileName(temporary.c_str());
+    writer->Write();
+    const std::int64_t expected = nifti_header + std::ssize(image.labels) * 2;
+    const bool failed = !message.text().empty() || writer->GetErrorCode() != 0;
+    if (failed || uncompressed_size(temporary) < expected)
+      throw SolverError(fmt::format("cannot write {}: {}", path.string(),
+                                    message.text().empty() ? "the file is cut off; is the disk full, or is there a "
+                                                             "limit for the size of files?"
+                                                           : message.text()));
+  });
 }
 
 }  // namespace tunica::imaging

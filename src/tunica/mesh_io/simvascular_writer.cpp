@@ -17,6 +17,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
+#include "tunica/mesh_io/vtk_writer.hpp"
 
 namespace tunica::mesh_io {
 
@@ -28,11 +29,10 @@ using Index = std::int64_t;
 template <class Writer, class Data>
 void write(const fs::path& path, Data* data) {
   vtkNew<Writer> writer;
-  writer->SetFileName(path.c_str());
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  if (writer->Write() != 1) throw SolverError(path.string() + ": cannot be written");
+  write_vtk(*writer, path);
 }
 
 /// Nodes and elements of one kind of region, numbered from 0.

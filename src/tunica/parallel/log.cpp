@@ -10,6 +10,7 @@
 #include <cstring>
 #include <ctime>
 #include <system_error>
+#include <utility>
 
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -21,6 +22,13 @@ namespace {
 constexpr const char* erase_line = "\r\033[K";
 
 std::string time_stamp() { return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr))); }
+
+/// Error number, 0: none. Unlike fmt::print it does not throw: no log is worth a run.
+int put(std::FILE* stream, const std::string& text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
+  return written ? 0 : errno;
+}
 
 }  // namespace
 
@@ -38,6 +46,7 @@ Log::Log(MPI_Comm comm, const Targets& targets) {
     screen_ = targets.screen;
     on_terminal_ = screen_ != nullptr && is_terminal(screen_);
     if (targets.file.empty()) return;
+    name_ = targets.file;
     file_ = std::fopen(targets.file.c_str(), "a");
     if (file_ == nullptr)
       throw InputError(targets.file.string(), fmt::format("the log file cannot be written ({})", std::strerror(errno)),
@@ -48,40 +57,48 @@ Log::Log(MPI_Comm comm, const Targets& targets) {
 
 Log::~Log() {
   status("");
-  if (file_ != nullptr) std::fclose(file_);
+  if (file_ != nullptr && std::fclose(std::exchange(file_, nullptr)) != 0) give_up_file(errno);
 }
 
 void Log::info(std::string_view text) { write("info", text); }
 void Log::warning(std::string_view text) { write("warning", text); }
 void Log::error(std::string_view text) { write("error", text); }
 
-void Log::write(std::string_view kind, std::string_view text) {
-  const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
-  write_screen(fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_));
-  write_file(kind, text);
-}
-
-void Log::write_screen(const std::string& text) {
+void Log::write_to_screen(std::string_view kind, std::string_view text) {
   if (screen_ == nullptr) return;
-  const bool written = std::fwrite(text.data(), 1, text.size(), screen_) == text.size() && std::fflush(screen_) == 0;
-  if (written) return;
-  const int error = errno;
-  screen_ = nullptr;
-  write_file("warning",
-             fmt::format("the screen takes no more messages ({}): they are in this file", std::strerror(error)));
+  const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
+  const std::string line = fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_);
+  if (const int error = put(screen_, line); error != 0) give_up_screen(error);
 }
 
-void Log::write_file(std::string_view kind, std::string_view text) {
+void Log::write(std::string_view kind, std::string_view text) {
+  write_to_screen(kind, text);
+  write_to_file(kind, text);
+}
+
+void Log::give_up_screen(int error) {
+  screen_ = nullptr;
+  write_to_file("warning", fmt::format("the screen takes no more messages ({}): they are in this file alone",
+                                       std::strerror(error)));
+}
+
+void Log::write_to_file(std::string_view kind, std::string_view text) {
   if (file_ == nullptr) return;
-  const std::string line = fmt::format("{} {:7} {}\n", time_stamp(), kind, text);
-  std::fwrite(line.data(), 1, line.size(), file_);
-  std::fflush(file_);
+  if (const int error = put(file_, fmt::format("{} {:7} {}\n", time_stamp(), kind, text)); error != 0)
+    give_up_file(error);
+}
+
+void Log::give_up_file(int error) {
+  if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
+  write_to_screen("warning", fmt::format("the log {} cannot be written any more ({}); the lines from here on are "
+                                         "missing in it, and the run goes on",
+                                         name_.string(), std::strerror(error)));
 }
 
 void Log::status(std::string_view line) {
   if (screen_ == nullptr || !on_terminal_ || (line.empty() && status_.empty())) return;
   status_ = line;
-  write_screen(erase_line + status_);
+  if (const int error = put(screen_, fmt::format("{}{}", erase_line, status_)); error != 0) give_up_screen(error);
 }
 
 int Log::columns() const {

@@ -6,6 +6,8 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/case/face_patterns.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -40,14 +42,6 @@ std::string head_of(const Chain& chain, const Stage& stage) {
       "# {}: made by `tunica run` from {}, and written anew by the next one.\n"
       "# By hand, in this folder: tunica {} {}\n",
       stage.what, fs::absolute(chain.file).lexically_normal().string(), command, stage.file);
-}
-
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError(folder.string(), fmt::format("the folder cannot be made ({})", error.message()),
-                     "name one that can be created and written");
 }
 
 void remove_partial(const fs::path& folder, const Stage& stage) {
@@ -91,6 +85,9 @@ class ChainRun {
       for (const auto& warning : warnings) say("warning: " + format(warning));
       const auto wanted = wanted_stages(chain_);
       count_ = request_.until ? place_of(wanted, *request_.until, "--until") + 1 : wanted.size();
+      take_folder(lock_, chain_.output);
+      // Now, not after the hours of the stages before it.
+      for (std::size_t k = 0; k < count_; ++k) files::refuse_if_owned_by_another(folder_of(chain_, *wanted[k]));
       from_ = first_anew(request_, wanted);
       for (const auto* stage : wanted) places_.push_back(static_cast<std::size_t>(stage - stages().data()));
     });
@@ -142,7 +139,13 @@ class ChainRun {
     std::fflush(screen_);
   }
 
+  void take_folder(files::FolderLock& lock, const fs::path& folder) const {
+    lock = files::FolderLock(folder);
+    if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
+  }
+
   Decision decide(std::size_t k, const Stage& stage) {
+    files::refuse_if_owned_by_another(folder_of(chain_, stage));
     plan_ = plan(chain_, stage, k >= from_);
     const auto state = plan_.fresh ? fmt::format("reused from {}", plan_.last->time) : plan_.reason;
     say(fmt::format("{}=== stage {}/{}: {} ({}): {}", k == 0 ? "" : "\n", k + 1, count_, stage.name, stage.what,
@@ -153,7 +156,8 @@ class ChainRun {
 
   std::string prepare(const Stage& stage) {
     const fs::path folder = folder_of(chain_, stage), file = folder / stage.file;
-    create_folder(folder);
+    take_folder(stage_lock_, folder);
+    files::try_outputs(folder, {stage.file, stage.result, "stage.json"});
     if (!plan_.resume) remove_partial(folder, stage);
     files::write_atomically(file, head_of(chain_, stage) + config::commented_yaml(plan_.document, *stage.description));
     record_ = {.stage = stage.name,
@@ -177,10 +181,17 @@ class ChainRun {
     record_.seconds += seconds;
     write_record(folder_, record_);
     lines_.push_back({record_.stage, status, record_.seconds});
+    stage_lock_ = {};
   }
 
+  /// The error that is on its way is what counts, whether it can be recorded or not.
   void record_failure(const std::string& message, double seconds) {
-    if (parallel::rank(comm_) == 0) end("failed", message, seconds);
+    if (parallel::rank(comm_) != 0) return;
+    try {
+      end("failed", message, seconds);
+    } catch (const SolverError& error) {
+      say(fmt::format("warning: the failure of the stage is not recorded: {}", error.what()));
+    }
   }
 
   std::string table() const {
@@ -196,6 +207,8 @@ class ChainRun {
   std::size_t count_ = 0;            ///< stages that are looked at
   std::vector<std::size_t> places_;  ///< of the wanted stages in stages()
 
+  files::FolderLock lock_;        ///< of the folder of results; rank 0, as what follows
+  files::FolderLock stage_lock_;  ///< of the stage that is being done, which finds it its own
   Chain chain_;
   std::size_t from_ = 0;  ///< first stage that is done in any case
   Plan plan_;

@@ -10,6 +10,8 @@
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/plan.hpp"
@@ -41,7 +43,7 @@ fs::path write_variant(const Chain& chain, const std::string& name) {
   if (!document.has("post")) document.set("post", config::Document("{}"));
   if (!document.has("report")) document.set("report", config::Document("{pictures: false}"));
   document.set("output.directory", ".");
-  fs::create_directories(folder);
+  files::make_folder(folder);
   files::write_atomically(file, fmt::format("# {} of `tunica compare` {}\n", name, chain.file.string()) +
                                     config::commented_yaml(document, *case_file::Case::schema().description()));
   return file;
@@ -142,6 +144,7 @@ int compare_laws(const ChainRequest& request, MPI_Comm comm, std::FILE* screen) 
   Chain chain;
   std::vector<std::string> names;
   std::string common;
+  files::FolderLock lock;  // rank 0; the chains in it find it their own
   parallel::on_root(comm, [&] {
     std::vector<Problem> warnings;
     chain = read_chain(request.case_file, request.directory, warnings);
@@ -149,6 +152,9 @@ int compare_laws(const ChainRequest& request, MPI_Comm comm, std::FILE* screen) 
     if (names.size() < 2)
       throw InputError("compare", "names fewer than two laws", "add `compare: {neo_hooke: {material: ...}, ...}`");
     common = last_common_stage(chain.settings);
+    lock = files::FolderLock(chain.output);
+    if (!lock.taken_over().empty()) std::fprintf(screen, "warning: %s\n", lock.taken_over().c_str());
+    files::try_outputs(chain.output, {"compare/compare.csv", "compare/compare.html"});
   });
   parallel::broadcast(comm, names);
   parallel::broadcast(comm, common);

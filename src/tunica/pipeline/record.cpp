@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/files/lock.hpp"
 #include "tunica/files/time_stamp.hpp"
 
 namespace tunica::pipeline {
@@ -25,6 +26,12 @@ void add(files::Hash& hash, const std::string& text) {
   hash.add(text.data(), text.size());
   const std::size_t length = text.size();
   hash.add(&length, sizeof length);
+}
+
+/// Locks, and files that are being written: no content of a folder.
+bool is_passing(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with(files::lock_name) || name.ends_with(files::temporary_ending);
 }
 
 void add_file(files::Hash& hash, const fs::path& file) {
@@ -104,7 +111,7 @@ std::string Fingerprints::of(const fs::path& path) {
   if (fs::is_directory(full)) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(full))
-      if (entry.is_regular_file()) files.push_back(entry.path());
+      if (entry.is_regular_file() && !is_passing(entry.path())) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
       add(hash, file.lexically_relative(full).string());

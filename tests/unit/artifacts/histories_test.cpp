@@ -40,7 +40,8 @@ TEST(CsvTable, TellsLostDamagedAndRepeatedLines) {
   const auto damage = [&](const std::string& lines, std::int64_t last, Lines kind = Lines::for_every_step) {
     const auto file = folder.write("t.csv", "step,a\n" + lines);
     std::string text;
-    for (const auto& line : CsvTable(file, {"a"}, last, kind).damage())
+    const CsvTable table(file, {"a"}, last, kind);
+    for (const auto& line : table.damage())
       text += line.substr(folder.path().string().size() + 1) + "\n";
     return text;
   };

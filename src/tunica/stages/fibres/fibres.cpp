@@ -9,6 +9,8 @@
 
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/config/nearest.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
@@ -184,6 +186,7 @@ MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh lo
 
 std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const files::Say& say) {
   std::string text;
+  files::FolderLock lock;  // rank 0
   case_file::FibresCase c;
   artifacts::CheckedMesh loaded;
   parallel::on_root(comm, [&] {
@@ -192,8 +195,12 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const f
     for (const Problem& warning : parsed.warnings) say("warning: " + format(warning));
     c = std::move(parsed.value);
     if (request.output) c.output = *request.output;
+    lock = files::FolderLock(c.output);
+    if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
     if (!request.overwrite && std::filesystem::exists(c.output / "report.json"))
       throw InputError(c.output.string(), "holds a result already", "give --overwrite, or another `output`");
+    files::try_outputs(c.output,
+                       {"meshes.yaml", "report.json", "wall/mesh-complete.mesh.vtu", "wall/mesh-surfaces/face.vtp"});
     loaded = artifacts::load_meshes(c.meshes, {});
     for (const auto& line : loaded.warnings) say("warning: " + line);
   });

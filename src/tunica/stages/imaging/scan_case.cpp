@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "tunica/files/outputs.hpp"
+
 namespace tunica::stages {
 
 config::Schema<ScanCase> ScanCase::schema() {
@@ -23,7 +25,8 @@ config::Parsed<ScanCase> read_scan_case(const std::filesystem::path& file) {
 std::string scan_to_file(const ScanCase& scan_case, bool overwrite) {
   if (!overwrite && std::filesystem::exists(scan_case.output))
     throw InputError(scan_case.output.string(), "is there already", "give --overwrite, or another `output`");
-  if (const auto folder = scan_case.output.parent_path(); !folder.empty()) std::filesystem::create_directories(folder);
+  if (const auto folder = scan_case.output.parent_path(); !folder.empty()) files::make_folder(folder);
+  files::try_output(scan_case.output);
   const geometry::DissectionModel model(scan_case.parametric);
   imaging::write_label_image(scan(model, scan_case.scan), scan_case.output);
   std::string text =

@@ -10,6 +10,8 @@
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/csv_file.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::stages {
 
@@ -348,9 +350,8 @@ void run_material(const std::filesystem::path& file, const std::optional<std::fi
   const double K = c.volumetric().bulk_modulus;
   std::fprintf(screen, "%s\n", std::isfinite(K) ? fmt::format("bulk modulus {:.6g} Pa", K).c_str() : "incompressible");
   const std::filesystem::path folder = directory.value_or(c.output.directory);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "cannot be created: " + error.message(), "choose another folder");
+  const files::FolderLock lock(folder);
+  if (!lock.taken_over().empty()) std::fprintf(screen, "warning: %s\n", lock.taken_over().c_str());
   for (const auto& [name, test] : c.tests) TestReport(c, name, test, law, folder, screen).write();
 }
 

@@ -9,6 +9,8 @@
 #include "tunica/artifacts/histories.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/stages/material/material.hpp"
@@ -170,9 +172,8 @@ std::vector<Comparison> compare(const VerifiedCase& c) {
 bool verify(const std::filesystem::path& folder, std::FILE* screen) {
   if (parallel::size(MPI_COMM_WORLD) != 1)
     throw InputError("tunica verify", "runs on one rank: the cube has 19 nodes", "start it without mpirun");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "cannot be created: " + error.message(), "choose another folder");
+  const files::FolderLock lock(folder);
+  if (!lock.taken_over().empty()) std::fprintf(screen, "warning: %s\n", lock.taken_over().c_str());
   std::vector<Comparison> comparisons;
   std::vector<VerifiedCase> extension, shear;
   for (const CubeCase& c : cube_cases()) {

@@ -8,6 +8,8 @@
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/phases.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
@@ -93,8 +95,14 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
 std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say) {
   const auto& folder = mesh_case.output;
   const auto report_file = folder / "report.json";
+  const files::FolderLock lock(folder);
+  if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
   if (!overwrite && std::filesystem::exists(report_file))
     throw InputError(folder.string(), "holds a mesh already", "give --overwrite, or another `output`");
+  std::vector<std::filesystem::path> planned{"meshes.yaml", "report.json", "report.html"};
+  for (const std::filesystem::path part : {"lumen", "wall"})
+    planned.insert(planned.end(), {part / "mesh-complete.mesh.vtu", part / "mesh-surfaces/face.vtp"});
+  files::try_outputs(folder, planned);
   const MadeMesh made = make_mesh(mesh_case, say);
   mesh_io::write_simvascular(folder / "lumen", made.data, mesh::RegionKind::lumen, geometry::mm);
   const auto regions = mesh_io::write_simvascular(folder / "wall", made.data, mesh::RegionKind::wall, geometry::mm);

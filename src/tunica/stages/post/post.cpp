@@ -8,6 +8,8 @@
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
@@ -76,6 +78,7 @@ class Post {
   case_file::Case case_;
   analysis::PostSettings settings_;
   fs::path results_, folder_;
+  files::FolderLock lock_;  ///< of folder_, rank 0
   mesh::MeshData data_;
   std::optional<analysis::FieldSeries> series_;
   std::vector<std::string> warnings_;
@@ -124,13 +127,11 @@ void Post::prepare_folder() {
   parallel::on_root(comm_, [&] {
     if (!request_.overwrite && fs::exists(folder_ / report_file))
       throw InputError(folder_.string(), "holds figures already", "give --overwrite, or another folder by --output");
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error)
-      throw InputError(folder_.string(), fmt::format("cannot be made ({})", error.message()),
-                       "name a folder that can be created and written");
+    lock_ = files::FolderLock(folder_);
+    files::try_outputs(folder_, {report_file, "post.log"});
   });
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "post.log", .screen = screen_});
+  if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
   if (!case_.title.empty()) log_->info(case_.title);
   for (const auto& line : warnings_) log_->warning(line);
 }

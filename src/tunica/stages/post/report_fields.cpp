@@ -12,7 +12,7 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "tunica/base/error.hpp"
+#include "tunica/mesh_io/vtk_writer.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 
@@ -32,11 +32,10 @@ vtkSmartPointer<vtkFloatArray> array(const char* name, int components = 1) {
 template <class Writer, class Data>
 void write(const fs::path& file, Data* data) {
   vtkNew<Writer> writer;
-  writer->SetFileName(file.c_str());
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  if (writer->Write() != 1) throw SolverError(file.string() + ": cannot be written");
+  mesh_io::write_vtk(*writer, file);
 }
 
 /// Points of the mesh that cells use, in mm, numbered as they come.

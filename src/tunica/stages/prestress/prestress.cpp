@@ -18,6 +18,8 @@
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/submesh.hpp"
@@ -139,6 +141,7 @@ class PrestressRun {
   std::string text_;
   case_file::Case case_;
   fs::path folder_;
+  files::FolderLock lock_;  ///< rank 0
   std::optional<parallel::Log> log_;
   double started_ = MPI_Wtime();
 
@@ -161,6 +164,7 @@ PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::
   folder_ = request.directory.value_or(settings().output);
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "prestress.log", .screen = screen});
+  if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
   if (!case_.title.empty()) log_->info(case_.title);
   for (const auto& line : whole_.report) log_->info(line);
   for (const auto& line : whole_.warnings) log_->warning(line);
@@ -210,6 +214,7 @@ void PrestressRun::read() {
 
 void PrestressRun::prepare_folder() {
   parallel::on_root(comm_, [&] {
+    lock_ = files::FolderLock(folder_);
     if (!request_.overwrite && !request_.keep_flow && fs::exists(folder_ / "prestress.log"))
       throw InputError(folder_.string(), "holds a prestress already",
                        "replace it by --overwrite, find it anew with the flow that is there by --keep-flow, or name "
@@ -217,11 +222,8 @@ void PrestressRun::prepare_folder() {
     if (request_.keep_flow && !has_flow(folder_))
       throw InputError(folder_.string(), "holds no flow.checkpoint that could be kept",
                        "find the flow: " + command("--overwrite"));
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error)
-      throw InputError(folder_.string(), fmt::format("cannot be made ({})", error.message()),
-                       "name a folder that can be created and written");
+    files::try_outputs(folder_, {"prestress.log", report_file, "wall.vtu", "start.checkpoint", "flow.checkpoint",
+                                 "boundary.yaml", "fixed_point.csv"});
     for (const char* file : {"prestress.log", report_file, "wall.vtu", "start.checkpoint"}) fs::remove(folder_ / file);
     if (!request_.keep_flow) remove_flow(folder_);
   });

@@ -7,6 +7,8 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/page.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/stages/report/parts.hpp"
 
@@ -61,6 +63,9 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   const fs::path file = report.output / "report.html";
   if (!overwrite && fs::exists(file))
     throw InputError(file.string(), "is there already", "give --overwrite, or another `output`");
+  const files::FolderLock lock(report.output);
+  if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
+  files::try_outputs(report.output, {"report.html"});
   const auto results = stages::report::read_results(report);
   const std::string text = drawing::page::begin(report.title.empty() ? "Report" : report.title) + contents +
                            stages::report::summary_part(results, program) + stages::report::mesh_part(results) +
@@ -68,11 +73,6 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
                            stages::report::outlets_part(results) + stages::report::run_part(results) +
                            stages::report::cycle_part(results) + stages::report::pictures_part(results, say) +
                            case_part(report) + drawing::page::end();
-  std::error_code error;
-  fs::create_directories(report.output, error);
-  if (error)
-    throw InputError(report.output.string(), fmt::format("cannot be made ({})", error.message()),
-                     "name a folder that can be created and written");
   files::write_atomically(file, text);
   return file;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/fields.hpp"
@@ -22,6 +23,8 @@
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/monitors.hpp"
 #include "tunica/files/hash.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
 #include "tunica/parallel/shared_error.hpp"
@@ -44,14 +47,6 @@ constexpr double longest_without_checkpoint = 120;
 
 std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError(folder.string(), fmt::format("the folder of results cannot be made ({})", error.message()),
-                     "name one that can be created and written");
-}
-
 /// One run from its first to its last step. Its member functions are collective.
 class Run {
  public:
@@ -70,6 +65,7 @@ class Run {
   artifacts::StepGrid make_grid(const artifacts::StepGrid::Position* position) const;
 
   void prepare_folder();
+  void try_outputs() const;
   void distribute();
   void check_tables(const artifacts::StepGrid& from) const;
   fs::path checkpoint_to_restart_from();
@@ -94,6 +90,8 @@ class Run {
   void write_fields();
   void save();
   void record(const std::string& status, const std::string& message);
+  /// Calls `write` and adds the step to what it throws.
+  void on_disk(const std::function<void()>& write) const;
   [[noreturn]] void give_up(const StepReport& report);
 
   std::string time_text(double seconds) const;
@@ -105,7 +103,8 @@ class Run {
   MPI_Comm comm_;
   double started_ = MPI_Wtime();
   fs::path folder_;
-  double time_unit_;  ///< s
+  files::FolderLock lock_;  ///< rank 0
+  double time_unit_;        ///< s
 
   std::uint64_t case_hash_ = 0, mesh_hash_ = 0;
   bool folder_has_results_ = false;
@@ -144,6 +143,7 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   if (!continued()) check_tables(grid_);
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
+  if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
   if (!case_.title.empty()) log_->info(case_.title);
   for (const auto& line : input_.mesh.report) log_->info(line);
   for (const auto& line : input_.warnings) log_->warning(line);
@@ -186,10 +186,18 @@ void Run::check_tables(const artifacts::StepGrid& from) const {
   });
 }
 
+void Run::try_outputs() const {
+  std::vector<fs::path> files{"run.log", "manifest.json", fs::path("checkpoints") / "step_00000000.checkpoint"};
+  for (const auto& name : artifacts::Histories::files()) files.emplace_back(name);
+  files::try_outputs(folder_, files);
+}
+
 void Run::prepare_folder() {
   folder_has_results_ = parallel::on_root(comm_, [&] {
+    lock_ = files::FolderLock(folder_);
     const auto results = artifacts::find_results(folder_);
-    if (!results) return create_folder(folder_), false;
+    try_outputs();
+    if (!results) return false;
     if (request_.overwrite) {
       artifacts::remove_results(folder_, *results);
       return false;
@@ -381,7 +389,7 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   if (!is_static())
     history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
   history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
-  parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); });
+  on_disk([&] { parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); }); });
   state_is_whole_ = true;
 
   auto& p = progress_;
@@ -441,10 +449,13 @@ bool Run::take_step() {
 bool Run::finish_cycle(bool anew) {
   const auto& settings = *case_.time->cycles;
   const int cycle = static_cast<int>(grid_.steps_done() / case_.time->steps_per_cycle());
-  CycleChange change = parallel::on_root(comm_, [&] {
-    // A run may have ended after the step and before the line of its cycle.
-    const bool lacks_line = folder_has_results_ && !cycles_->has(state_.step);
-    return anew || lacks_line ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle);
+  CycleChange change;
+  on_disk([&] {
+    change = parallel::on_root(comm_, [&] {
+      // A run may have ended after the step and before the line of its cycle.
+      const bool lacks_line = folder_has_results_ && !cycles_->has(state_.step);
+      return anew || lacks_line ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle);
+    });
   });
   parallel::broadcast(comm_, change);
   const bool periodic = change.below(settings.tolerance), last = cycle == settings.most;
@@ -464,13 +475,25 @@ void Run::write_fields() {
 void Run::save() {
   if (checkpoint_state_ == state_.step) return;
   const fs::path file = artifacts::checkpoint_file(checkpoint_folder(), grid_.steps_done());
-  artifacts::write_checkpoint(file, mesh_, {state_, grid_.position(), case_hash_, mesh_hash_});
+  on_disk([&] {
+    // In this order: a checkpoint without the histories that lead to it could not be continued.
+    parallel::on_root(comm_, [&] { histories_->sync(); });
+    artifacts::write_checkpoint(file, mesh_, {state_, grid_.position(), case_hash_, mesh_hash_});
+  });
   last_checkpoint_ = file;
   checkpoint_state_ = state_.step;
   parallel::on_root(comm_, [&] {
     auto files = artifacts::list_checkpoints(checkpoint_folder());
     for (std::size_t k = 0; k + kept_checkpoints < files.size(); ++k) fs::remove(files[k]);
   });
+}
+
+void Run::on_disk(const std::function<void()>& write) const {
+  try {
+    write();
+  } catch (const SolverError& error) {
+    throw SolverError(fmt::format("step {} (t = {}): {}", grid_.steps_done(), time_text(grid_.time()), error.what()));
+  }
 }
 
 void Run::record(const std::string& status, const std::string& message) {

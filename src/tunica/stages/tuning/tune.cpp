@@ -10,6 +10,8 @@
 #include "tunica/artifacts/run_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/log.hpp"
 #include "tunica/stages/run/run.hpp"
@@ -114,6 +116,7 @@ class Tuning {
   int steps_per_cycle_ = 0;
   int signal_ = 0;
   bool report_is_damaged_ = false;  ///< rank 0: that of an earlier call
+  files::FolderLock lock_;          ///< rank 0
   std::optional<parallel::Log> log_;
   TuningReport report_;  ///< rank 0
 };
@@ -126,6 +129,7 @@ Tuning::Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen)
   if (report_is_damaged_)
     log_->warning(fmt::format("{} is cut off or altered; the runs in this folder tell whether they are of this case",
                               (folder() / "tuning.json").string()));
+  if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
   if (rigid() || case_.settings.start) return;
   log_->warning(
       "the case names no `start`: the wall of the first cycle is not yet under its diastolic pressure, and what the "
@@ -182,6 +186,7 @@ void Tuning::prepare_folder() {
     report_.folder = folder();
     report_.program = request_.program;
     report_.case_hash = case_hash(case_);
+    lock_ = files::FolderLock(folder());
     const auto earlier = find_tuning(folder());
     report_is_damaged_ = earlier && !earlier->case_hash;
     if (earlier && earlier->case_hash.value_or(report_.case_hash) != report_.case_hash && !request_.overwrite)
@@ -190,11 +195,8 @@ void Tuning::prepare_folder() {
     if (!earlier && !request_.overwrite && fs::exists(settings().file()))
       throw InputError(settings().file().string(), "is there already, and no tuning beside it that it came from",
                        "replace it by --overwrite, or name another one by outlets.file");
-    std::error_code error;
-    fs::create_directories(folder(), error);
-    if (error)
-      throw InputError(folder().string(), fmt::format("cannot be made ({})", error.message()),
-                       "name a folder that can be created and written");
+    files::try_outputs(folder(), {"tune.log", "tuning.json", "tuning.csv", "best.yaml"});
+    files::try_output(settings().file());
     if (earlier && request_.overwrite) remove_earlier();
     for (const fs::path& file : {settings().file(), folder() / "best.yaml"}) fs::remove(file);
     write_report(report_, case_.settings);

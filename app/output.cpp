@@ -1,0 +1,33 @@
+#include "output.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace tunica::app {
+namespace {
+
+constexpr int solver_failure = 3;
+
+}  // namespace
+
+void let_writes_beyond_limits_fail() { std::signal(SIGXFSZ, SIG_IGN); }
+
+int with_standard_output(int code) {
+  const bool failed_before = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !failed_before) return code;
+  // The stream keeps no cause, so a line is tried once more.
+  const bool works_again = write(STDOUT_FILENO, "\n", 1) == 1;
+  const int error = works_again ? 0 : errno;
+  if (code != 0 || error == EPIPE || error == EIO || error == EBADF) return code;
+  std::fprintf(stderr,
+               "tunica: the standard output was cut off: %s; files in folders of results are complete, their writing "
+               "is checked by itself. Free some space where the standard output goes\n",
+               works_again ? "for a time it could not be written" : std::strerror(error));
+  return solver_failure;
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,14 @@
+// What is written must have been written: limits and full disks met by the process itself and by its standard output.
+#pragma once
+
+namespace tunica::app {
+
+/// Beyond a limit for the size of files (`ulimit -f`) a write shall fail, with an error that names the file, and not
+/// kill the process.
+void let_writes_beyond_limits_fail();
+
+/// Exit code of the program: `code`, or that of a failed computation when that is 0 and the standard output was cut
+/// off, by a full disk say. A reader that has gone away (a pipe, a terminal that was closed) is no failure.
+int with_standard_output(int code);
+
+}  // namespace tunica::app

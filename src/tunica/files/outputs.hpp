@@ -1,0 +1,19 @@
+// Outputs are tried before the work: a name that is too long is found in a second, not after hours of computing.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace tunica::files {
+
+/// Makes `folder` with those above it. Throws InputError when it cannot be made or is something else.
+void make_folder(const std::filesystem::path& folder);
+
+/// Can these files be written? Tries it, without touching what is there; in folders that are still to be made, only
+/// whether the names are possible. `files` relative to `folder`. Throws InputError with all that cannot.
+void try_outputs(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
+
+/// The same for one file, whose folder is not made for it.
+void try_output(const std::filesystem::path& file);
+
+}  // namespace tunica::files
