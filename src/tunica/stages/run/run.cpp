@@ -14,12 +14,10 @@
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/artifacts/prestress_file.hpp"
 #include "tunica/artifacts/problem_input.hpp"
-#include "tunica/artifacts/run_folder.hpp"
 #include "tunica/artifacts/step_grid.hpp"
 #include "tunica/assembly/isa.hpp"
 #include "tunica/assembly/time_scheme.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/case/table_ends.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/monitors.hpp"
 #include "tunica/files/hash.hpp"
@@ -31,6 +29,7 @@
 #include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/adaptive_steps.hpp"
 #include "tunica/stages/run/cycles.hpp"
+#include "tunica/stages/run/restart.hpp"
 
 namespace tunica::stages {
 
@@ -62,18 +61,17 @@ class Run {
   bool is_static() const { return std::holds_alternative<case_file::StaticWall>(case_.analysis); }
   bool continued() const { return request_.restart || request_.restart_file; }
   std::int64_t last_step() const;
+  /// Of this call, which may be asked to stop earlier.
+  std::int64_t end_step() const { return std::min(last_step(), request_.until.value_or(last_step())); }
   artifacts::StepGrid make_grid(const artifacts::StepGrid::Position* position) const;
 
   void prepare_folder();
   void try_outputs() const;
   void distribute();
-  void check_tables(const artifacts::StepGrid& from) const;
-  fs::path checkpoint_to_restart_from();
   std::string command(const char* option) const;
   void restore();
   void start_from(const fs::path& file);
   void open_outputs();
-  void tell_missing_fields();
 
   StepReport attempt();
   /// Takes one step, in parts if it must be. False when a signal came instead.
@@ -140,7 +138,7 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   parallel::broadcast(comm_, mesh_hash_);
   case_hash_ = parallel::on_root(comm_, [&] { return case_hash(input_); });
   parallel::broadcast(comm_, case_hash_);
-  if (!continued()) check_tables(grid_);
+  if (!continued()) refuse_tables_that_end(comm_, case_, grid_, end_step());
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
@@ -168,22 +166,6 @@ artifacts::StepGrid Run::make_grid(const artifacts::StepGrid::Position* position
                        : case_.time->adaptive ? std::max(case_.time->max_halvings, finest_level(*case_.time))
                                               : case_.time->max_halvings;
   return position ? artifacts::StepGrid(nominal, halvings, *position) : artifacts::StepGrid(nominal, halvings);
-}
-
-// Before anything is written or removed: a table that ends would end the run there.
-void Run::check_tables(const artifacts::StepGrid& from) const {
-  case_file::AskedTime asked = case_file::asked_by_run(case_);
-  if (case_.time) {
-    const auto left = std::min(last_step(), request_.until.value_or(last_step())) - from.steps_done();
-    if (left <= 0) return;
-    asked.begin = from.time();
-    asked.first = asked.begin + 0.5 * case_.time->step;
-    asked.end = asked.begin + static_cast<double>(left) * case_.time->step;
-  }
-  parallel::on_root(comm_, [&] {
-    auto problems = case_file::check_table_ends(case_.boundary, asked);
-    if (!problems.empty()) throw InputError(std::move(problems));
-  });
 }
 
 void Run::try_outputs() const {
@@ -255,27 +237,6 @@ void Run::start_from(const fs::path& file) {
   log_->info(fmt::format("starting from {}", file.string()));
 }
 
-fs::path Run::checkpoint_to_restart_from() {
-  if (request_.restart_file) return *request_.restart_file;
-  std::vector<std::string> passed_over;
-  std::string name = parallel::on_root(comm_, [&] {
-    const std::string anew = fmt::format("begin anew: {}", command("--overwrite"));
-    auto found = artifacts::last_sound_checkpoint(checkpoint_folder());
-    if (!found.file && found.passed_over.empty())
-      throw InputError(checkpoint_folder().string(), "holds no checkpoint to restart from", anew);
-    if (!found.file) {
-      std::string damaged;
-      for (const auto& line : found.passed_over) damaged += "\n  " + line;
-      throw InputError(checkpoint_folder().string(), "holds no checkpoint that is whole:" + damaged, anew);
-    }
-    passed_over = std::move(found.passed_over);
-    return found.file->string();
-  });
-  parallel::broadcast(comm_, name);
-  for (const auto& line : passed_over) log_->warning(line + "; the one before is taken");
-  return name;
-}
-
 std::string Run::command(const char* option) const {
   return fmt::format("tunica run {}{} {}", request_.case_file.string(),
                      request_.directory ? " --output " + request_.directory->string() : "", option);
@@ -286,20 +247,22 @@ void Run::restore() {
   if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
   if (case_.start && !continued()) start_from(*case_.start);
   if (!continued()) return;
-  const std::string name = checkpoint_to_restart_from().string();
+  const fs::path name = request_.restart_file
+                            ? *request_.restart_file
+                            : last_whole_checkpoint(comm_, checkpoint_folder(), command("--overwrite"), *log_);
   artifacts::Checkpoint checkpoint = artifacts::read_checkpoint(
       name, mesh_, state_, mesh_hash_,
       fmt::format("restart from another checkpoint, such as the last one that is whole: {}", command("--restart")));
   state_ = std::move(checkpoint.state);
   grid_ = make_grid(&checkpoint.position);
-  check_tables(grid_);
+  refuse_tables_that_end(comm_, case_, grid_, end_step());
   if (case_.time && case_.time->cycles && checkpoint.position.nominal != case_.time->step)
     throw InputError(
         "time.step",
         fmt::format("is {:.9g} s, in the run to be continued {:.9g} s", case_.time->step, checkpoint.position.nominal),
         "keep the step of a run in cycles, or start anew");
   last_checkpoint_ = name;
-  log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
+  log_->info(fmt::format("continuing from {} after {}, t = {}", name.string(), plural(grid_.steps_done(), "step"),
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
     log_->warning(
@@ -307,25 +270,10 @@ void Run::restore() {
         "on with the new ones");
 }
 
-// For rank 0.
-void Run::tell_missing_fields() {
-  if (!manifest_damage_.empty())
-    log_->warning(fmt::format("{} {}: the list of the runs in this folder begins anew",
-                              (folder_ / "manifest.json").string(), manifest_damage_));
-  std::vector<std::string> regions;
-  for (const auto& region : mesh_.regions) regions.push_back(region.name);
-  auto missing = artifacts::missing_fields(folder_, regions, grid_.time());
-  constexpr std::size_t most = 4;
-  if (missing.size() > most) {
-    missing[most - 1] = fmt::format("and {} more fields are missing", missing.size() - most + 1);
-    missing.resize(most);
-  }
-  for (const auto& line : missing) log_->warning(line);
-}
-
 void Run::open_outputs() {
   const bool keep = continued() && folder_has_results_;
-  std::vector<std::string> lumen_faces;
+  std::vector<std::string> lumen_faces, regions;
+  for (const auto& region : mesh_.regions) regions.push_back(region.name);
   for (const auto& face : mesh_.faces)
     if (mesh_.regions[face.region].kind == mesh::RegionKind::lumen) lumen_faces.push_back(face.name);
   artifacts::ManifestHead head{.program = request_.program,
@@ -341,7 +289,10 @@ void Run::open_outputs() {
   for (const auto& r : input_.mesh.data.regions) head.regions.emplace_back(r.name, r.end_element - r.first_element);
   parallel::on_root(comm_, [&] {
     const auto from = keep ? std::optional(state_.step) : std::nullopt;
-    if (keep) tell_missing_fields();
+    if (!manifest_damage_.empty())
+      log_->warning(fmt::format("{} {}: the list of the runs in this folder begins anew",
+                                (folder_ / "manifest.json").string(), manifest_damage_));
+    if (keep) tell_missing_fields(folder_, regions, grid_.time(), *log_);
     histories_.emplace(folder_, case_, lumen_faces, state_.outlets, from);
     for (const auto& line : histories_->damage()) log_->warning(line);
     if (case_.time && case_.time->cycles) {
@@ -572,7 +523,7 @@ RunOutcome Run::steps() {
 }
 
 RunOutcome Run::compute() {
-  const std::int64_t end = std::min(last_step(), request_.until.value_or(last_step()));
+  const std::int64_t end = end_step();
   RunOutcome outcome;
   bool periodic = at_cycle_end() && finish_cycle(false);
   if (periodic || grid_.steps_done() >= end) {
