@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hold_on_to_streams();
   tunica::app::let_writes_beyond_limits_fail();
   return tunica::app::with_standard_output(run(argc, argv));
 }

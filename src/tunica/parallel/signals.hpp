@@ -11,7 +11,8 @@ namespace tunica::parallel {
 /// where it can be continued, and a second one ends the process at once. A signal within half a second after the first
 /// is taken for the same request, since launchers pass on what the terminal delivers as well; so is SIGHUP at any time,
 /// which shell and kernel both send. A SIGHUP that is ignored, as under nohup, stays so. Earlier handlers return with
-/// its end. One at a time.
+/// its end. One within
+/// another does nothing.
 ///
 /// Open MPI's mpirun turns SIGINT and SIGTERM into SIGTERM and, one second later, SIGKILL. It passes SIGUSR1 on
 /// unchanged, and `mpirun --mca odls_base_sigkill_timeout <seconds>` gives longer for the others (some

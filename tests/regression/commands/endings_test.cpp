@@ -1,7 +1,9 @@
 // Ends that nobody wishes for, and damaged files: each leaves a state from which the run goes on, and says so.
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <thread>
@@ -142,12 +144,12 @@ TEST_F(Endings, ATableThatEndsIsToldBeforeTheRun) {
 
 TEST_F(Endings, ADamagedCheckpointFallsBackToTheOneBefore) {
   write_case(8);
-  const auto damages = {+[](const Endings& t) { t.cut(last, 0.5); }, +[](const Endings& t) { t.cut(last, 0.0); },
-                        +[](const Endings& t) { t.flip(last, 400); }, +[](const Endings& t) { t.flip(last, 1); },
-                        +[](const Endings& t) { t.write(last, t.read(last) + "more"); }};
+  const std::vector<std::function<void()>> damages = {[&] { cut(last, 0.5); }, [&] { cut(last, 0.0); },
+                                                      [&] { flip(last, 400); }, [&] { flip(last, 1); },
+                                                      [&] { write(last, read(last) + "more"); }};
   for (const auto& damage : damages) {
     ASSERT_EQ(tunica("run case.yaml --overwrite --until 6"), 0) << printed();
-    damage(*this);
+    damage();
     EXPECT_EQ(tunica("run case.yaml --restart"), 0) << printed();
     expect_printed("warning: results/checkpoints/step_00000006.checkpoint: ");
     expect_printed("continuing from results/checkpoints/step_00000004.checkpoint after 4 steps");
@@ -189,18 +191,18 @@ TEST_F(Endings, LostLinesOfHistoriesAreNoticed) {
 
 TEST_F(Endings, AManifestThatIsGoneOrCutOffHidesNoResults) {
   write_case(8);
-  const auto damages = {+[](const Endings& t) { t.cut("results/manifest.json", 0.4); },
-                        +[](const Endings& t) { t.write("results/manifest.json", ""); },
-                        +[](const Endings& t) { fs::remove(t.folder_ / "results/manifest.json"); }};
+  const std::vector<std::function<void()>> damages = {[&] { cut("results/manifest.json", 0.4); },
+                                                      [&] { write("results/manifest.json", ""); },
+                                                      [&] { fs::remove(folder_ / "results/manifest.json"); }};
   for (const auto& damage : damages) {
     ASSERT_EQ(tunica("run case.yaml --overwrite --until 6"), 0) << printed();
-    damage(*this);
+    damage();
     EXPECT_EQ(tunica("run case.yaml"), 2) << printed();
     expect_printed("manifest.json is ");
     EXPECT_EQ(tunica("run case.yaml --restart"), 0) << printed();
     EXPECT_EQ(status(), "completed");
     expect_same_as_whole(8);
-    damage(*this);
+    damage();
     EXPECT_EQ(tunica("run case.yaml --overwrite"), 0) << printed();
   }
 }
@@ -248,8 +250,8 @@ TEST_F(ChainEndings, AStageThatHasLostItsFilesIsNotFresh) {
     return std::regex_search(printed(), std::regex(fmt::format("{} +fresh", stage)));
   };
   EXPECT_TRUE(fresh("prestress") && fresh("run") && fresh("report")) << printed();
-  for (const std::string& file : {"run/lumen_000004.pvtu", "run/wall.pvd", "run/faces.csv",
-                                  "run/checkpoints/step_00000006.checkpoint", "run/manifest.json"}) {
+  for (const std::string file : {"run/lumen_000004.pvtu", "run/wall.pvd", "run/faces.csv",
+                                 "run/checkpoints/step_00000006.checkpoint", "run/manifest.json"}) {
     fs::remove(folder_ / "out" / file);
     EXPECT_FALSE(fresh("run")) << file;
     EXPECT_EQ(tunica("run case.yaml"), 0) << printed();
@@ -257,7 +259,7 @@ TEST_F(ChainEndings, AStageThatHasLostItsFilesIsNotFresh) {
     EXPECT_TRUE(read("out/run/faces.csv") == kept("run/faces.csv")) << file;
     EXPECT_TRUE(read("out/run/wall.pvd") == kept("run/wall.pvd")) << file;
   }
-  for (const std::string& file : {"prestress/wall.vtu", "prestress/flow.checkpoint", "prestress/start.checkpoint"}) {
+  for (const std::string file : {"prestress/wall.vtu", "prestress/flow.checkpoint", "prestress/start.checkpoint"}) {
     cut("out/" + file, 0.6);
     EXPECT_FALSE(fresh("prestress")) << file;
     EXPECT_EQ(tunica("run case.yaml"), 0) << printed();

@@ -37,6 +37,16 @@ TEST(StopSignals, ForgetTheRequestAndGiveBackEarlierHandlers) {
   EXPECT_FALSE(stop_requested(MPI_COMM_WORLD));
 }
 
+TEST(StopSignals, OneWithinAnotherDoesNothing) {
+  const StopSignals outer;
+  {
+    const StopSignals inner;
+    std::raise(SIGUSR1);
+    EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGUSR1);
+  }
+  EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGUSR1);
+}
+
 TEST(StopSignals, AHangUpAsksForTheEndHoweverOftenItComes) {
   const StopSignals signals;
   std::raise(SIGHUP);

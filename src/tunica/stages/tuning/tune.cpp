@@ -14,6 +14,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/log.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "tunica/stages/tuning/tuning_report.hpp"
 
@@ -297,6 +298,8 @@ Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& inpu
 }
 
 bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
+  signal_ = parallel::stop_requested(comm_);
+  if (signal_ != 0) return false;
   const ReadCase input = run_input(name, plan, steps);
   RunRequest run;
   run.case_file = request_.case_file;
@@ -457,6 +460,9 @@ int Tuning::look_for_outlets() {
 
 }  // namespace
 
-int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) { return Tuning(comm, request, screen).steps(); }
+int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) {
+  const parallel::StopSignals signals;
+  return Tuning(comm, request, screen).steps();
+}
 
 }  // namespace tunica::stages
