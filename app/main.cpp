@@ -1,5 +1,8 @@
 // Command line of tunica. Exit codes: 0 done, 2 the input is wrong, 3 a computation failed; `tunica run`
 // adds 128 + number of the signal that stopped it.
+#include <fcntl.h>
+
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -12,9 +15,18 @@ namespace {
 
 constexpr int input_error = 2, solver_failure = 3;
 
-int fail(int code, const std::exception& error) {
-  std::fprintf(stderr, "tunica: %s\n", error.what());
+int fail(int code, const char* error) {
+  std::fprintf(stderr, "tunica: %s\n", error);
   return code;
+}
+
+/// A reader of the output that goes away (`tunica run case.yaml | head`) does not end the computation, and neither do
+/// standard streams that were closed before the start: without a stand-in, the first files that are opened would take
+/// their numbers, and messages would be written into results.
+void hold_on_to_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (int stream = 0; stream <= 2; ++stream)
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
 }
 
 int run(int argc, char** argv) {
@@ -47,9 +59,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : input_error;
   } catch (const tunica::InputError& error) {
-    return fail(input_error, error);
+    return fail(input_error, error.what());
   } catch (const std::exception& error) {
-    return fail(solver_failure, error);
+    return fail(solver_failure, error.what());
+  } catch (...) {
+    return fail(solver_failure, "unknown error");
   }
   return 0;
 }
@@ -57,6 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hold_on_to_streams();
   tunica::app::let_writes_beyond_limits_fail();
   return tunica::app::with_standard_output(run(argc, argv));
 }

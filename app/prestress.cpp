@@ -14,10 +14,14 @@ void add_prestress(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  mpirun -n 4 tunica prestress case.yaml\n"
-      "  tunica prestress case.yaml --keep-flow              the fixed point anew, with the steady flow that is there\n"
+      "  tunica prestress case.yaml --keep-flow              the fixed point anew, with the steady flow that is "
+      "there;\n"
+      "                                                      a steady flow that was interrupted goes on\n"
       "The section `prestress` of the case says how. Then name the results in the case, and run it:\n"
       "  wall: {prestress: prestress/wall.vtu}\n"
-      "  start: prestress/start.checkpoint");
+      "  start: prestress/start.checkpoint\n"
+      "Exit codes: 0 done, 2 the input is wrong, 3 the computation failed, 128 + number of the signal that stopped "
+      "it.");
   const auto request = std::make_shared<stages::PrestressRequest>();
   const auto case_file = std::make_shared<std::string>(), directory = std::make_shared<std::string>();
   command->add_option("case", *case_file, "The case file")->required();
@@ -28,7 +32,10 @@ void add_prestress(CLI::App& app) {
     request->case_file = *case_file;
     if (given->count() > 0) request->directory = *directory;
     request->program = {version(), commit()};
-    throw CLI::RuntimeError(in_session([&] { return stages::prestress(MPI_COMM_WORLD, *request, stdout), 0; }));
+    throw CLI::RuntimeError(in_session([&] {
+      const int signal = stages::prestress(MPI_COMM_WORLD, *request, stdout);
+      return signal == 0 ? 0 : 128 + signal;
+    }));
   });
 }
 

@@ -79,8 +79,10 @@ void add_run(CLI::App& app) {
       "  tunica run case.yaml --until prestress              no further than that stage\n"
       "  tunica run case.yaml --from fibres                  that stage and all after it anew\n"
       "Results: time series for ParaView (.pvd), histories (.csv), checkpoints, manifest.json, run.log.\n"
-      "Ctrl-C, SIGTERM and SIGUSR1 end the run after the present time step with a checkpoint. mpirun leaves it a\n"
-      "second for that, `mpirun --mca odls_base_sigkill_timeout 10 ...` ten, and as long as it takes when mpirun gets\n"
+      "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP (a terminal that is closed; not under nohup) end the run after the present\n"
+      "time step with a checkpoint, and so does an error. A reader of the output that goes away does not end it.\n"
+      "mpirun leaves a second for that, `mpirun --mca odls_base_sigkill_timeout 10 ...` ten, and as long as it takes "
+      "when mpirun gets\n"
       "SIGUSR1.\n"
       "Exit codes: 0 done, 2 the input is wrong, 3 the computation failed, 128 + number of the signal that stopped "
       "it.");

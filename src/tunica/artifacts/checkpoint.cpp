@@ -87,7 +87,7 @@ void take_header(const json& h, Checkpoint& c, const std::string& where) {
 }
 
 [[noreturn]] void damaged(const fs::path& file, const std::string& what) {
-  throw InputError(file.string(), what, "restart from another checkpoint: --restart FILE");
+  throw InputError(file.string(), what, "use another checkpoint");
 }
 
 /// Reading end of a checkpoint, on rank 0.
@@ -119,6 +119,8 @@ class Reader {
     std::uint64_t found = 0;
     read(&found, sizeof found);
     if (found != expected) damaged(file_, "the checkpoint is damaged: its contents do not have the recorded hash");
+    if (stream_.peek() != std::ifstream::traits_type::eof())
+      damaged(file_, "the checkpoint is damaged: it goes on after its end");
   }
 
  private:
@@ -169,14 +171,40 @@ void write_checkpoint(const fs::path& file, const distributed::DistributedMesh& 
   parallel::on_root(mesh.comm, [&] { writer->finish(); });
 }
 
+std::string damage_of(const fs::path& file) {
+  try {
+    Reader reader(file);
+    const json header = json::parse(reader.header(), nullptr, false);
+    if (header.is_discarded() || !header.is_object() || !header.contains("nodes") ||
+        !header["nodes"].is_number_unsigned())
+      return "the header is damaged";
+    std::vector<char> block(1 << 16);
+    constexpr std::uint64_t bytes_of_node = 4 * 4 * sizeof(double);
+    const std::uint64_t nodes = header["nodes"], size = fs::file_size(file);
+    if (nodes > size / bytes_of_node) return "the checkpoint is not complete";
+    for (std::uint64_t left = nodes * bytes_of_node; left > 0;) {
+      const std::uint64_t part = std::min<std::uint64_t>(left, block.size());
+      reader.read(block.data(), part);
+      left -= part;
+    }
+    reader.finish();
+    return "";
+  } catch (const InputError& error) {
+    return error.problems().front().what;
+  } catch (const fs::filesystem_error& error) {
+    return error.code().message();
+  }
+}
+
 namespace {
 
 /// Reads header and nodal fields. `take(header)` is called on all ranks.
 template <class Take>
 void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::uint64_t mesh_hash,
-          coupling::State& state, const Take& take) {
+          coupling::State& state, const std::string& remedy, const Take& take) {
   std::optional<Reader> reader;
   std::string header = parallel::on_root(mesh.comm, [&] {
+    if (const std::string damage = damage_of(file); !damage.empty()) throw InputError(file.string(), damage, remedy);
     reader.emplace(file);
     std::string text = reader->header();
     const json h = json::parse(text, nullptr, false);
@@ -208,16 +236,16 @@ void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
 }  // namespace
 
 Checkpoint read_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const coupling::State& start,
-                           std::uint64_t mesh_hash) {
+                           std::uint64_t mesh_hash, const std::string& remedy) {
   Checkpoint c{.state = start, .position = {}};
-  read(file, mesh, mesh_hash, c.state, [&](const json& header) { take_header(header, c, file.string()); });
+  read(file, mesh, mesh_hash, c.state, remedy, [&](const json& header) { take_header(header, c, file.string()); });
   return c;
 }
 
 std::vector<OutletStart> read_start(const fs::path& file, const distributed::DistributedMesh& mesh,
-                                    coupling::State& state, std::uint64_t mesh_hash) {
+                                    coupling::State& state, std::uint64_t mesh_hash, const std::string& remedy) {
   std::vector<OutletStart> outlets;
-  read(file, mesh, mesh_hash, state, [&](const json& header) {
+  read(file, mesh, mesh_hash, state, remedy, [&](const json& header) {
     for (const auto& outlet : header.at("outlets"))
       outlets.push_back({outlet.at("face"), outlet.at("state").at(0), outlet.at("pressure")});
   });
@@ -243,6 +271,20 @@ std::vector<fs::path> list_checkpoints(const fs::path& folder) {
     if (step_of(entry.path()) >= 0) files.push_back(entry.path());
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return step_of(a) < step_of(b); });
   return files;
+}
+
+SoundCheckpoint last_sound_checkpoint(const fs::path& folder) {
+  SoundCheckpoint sound;
+  const auto files = list_checkpoints(folder);
+  for (auto file = files.rbegin(); file != files.rend(); ++file) {
+    const std::string damage = damage_of(*file);
+    if (damage.empty()) {
+      sound.file = *file;
+      break;
+    }
+    sound.passed_over.push_back(fmt::format("{}: {}", file->string(), damage));
+  }
+  return sound;
 }
 
 }  // namespace tunica::artifacts

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,10 @@ void write_checkpoint(const std::filesystem::path& file, const distributed::Dist
 
 /// Reads what write_checkpoint wrote, on any number of ranks. `start` is the initial state of the problem, whose
 /// outlets take over what the file says; `mesh_hash` (significant on rank 0) that of the mesh in use. Throws InputError
-/// on all ranks when the file cannot be read, is damaged, or belongs to another mesh or other outlets. Collective.
+/// on all ranks when the file cannot be read, is damaged (with `remedy`), or belongs to another mesh or other outlets.
+/// Nothing is taken from it before all of it is known to be whole. Collective.
 Checkpoint read_checkpoint(const std::filesystem::path& file, const distributed::DistributedMesh& mesh,
-                           const coupling::State& start, std::uint64_t mesh_hash);
+                           const coupling::State& start, std::uint64_t mesh_hash, const std::string& remedy);
 
 /// An outlet of a checkpoint.
 struct OutletStart {
@@ -38,12 +40,23 @@ struct OutletStart {
 /// Takes the nodal fields of `state` from a checkpoint, for a run that starts from it at time zero, and returns its
 /// outlets, which need not be those of the case. Throws as read_checkpoint. Collective.
 std::vector<OutletStart> read_start(const std::filesystem::path& file, const distributed::DistributedMesh& mesh,
-                                    coupling::State& state, std::uint64_t mesh_hash);
+                                    coupling::State& state, std::uint64_t mesh_hash, const std::string& remedy);
+
+/// What is wrong with a checkpoint: cut off, altered, of another format, not to be opened. Empty when it is whole.
+/// Reads all of it. Not collective.
+std::string damage_of(const std::filesystem::path& file);
 
 /// Name of the checkpoint after `step` completed steps.
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder, std::int64_t step);
 /// Checkpoints in `folder`, ascending steps; empty when there is no folder. Not collective.
 std::vector<std::filesystem::path> list_checkpoints(const std::filesystem::path& folder);
+/// The last checkpoint in a folder that is whole.
+struct SoundCheckpoint {
+  std::optional<std::filesystem::path> file;
+  std::vector<std::string> passed_over;  ///< a line for each later one: its name and what is wrong with it
+};
+/// Not collective.
+SoundCheckpoint last_sound_checkpoint(const std::filesystem::path& folder);
 /// Number of completed steps in the name of a checkpoint, -1 for another name.
 std::int64_t step_of(const std::filesystem::path& file);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -18,34 +19,132 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Lines of `file` up to `step`, the header included. A last line without its end was being written when a run died.
-std::string kept_lines(const fs::path& file, const std::string& header, std::int64_t step) {
+/// The step of a line with so many numbers, none when it is another text.
+std::optional<std::int64_t> step_of_line(const std::string& line, std::ptrdiff_t numbers) {
+  std::int64_t step = 0;
+  if (std::count(line.begin(), line.end(), ',') + 1 != numbers) return std::nullopt;
+  const char *end = line.data() + line.size(), *cell = line.data();
+  for (bool first = true; cell <= end; first = false) {
+    const char* comma = std::find(cell, end, ',');
+    double value = 0;
+    const auto [stop, error] = first ? std::from_chars(cell, comma, step) : std::from_chars(cell, comma, value);
+    if (error != std::errc{} || stop != comma) return std::nullopt;
+    cell = comma + 1;
+  }
+  return step;
+}
+
+std::string missing_steps(std::int64_t from, std::int64_t to) {
+  return from == to ? fmt::format("the line of step {} is missing", from)
+                    : fmt::format("the lines of steps {} to {} are missing", from, to);
+}
+
+/// Only the first few are told.
+std::vector<std::string> shortened(std::vector<std::string> damage, const fs::path& file) {
+  constexpr std::size_t most = 4;
+  if (damage.size() <= most) return damage;
+  const std::size_t more = damage.size() - most;
+  damage.resize(most);
+  damage.push_back(fmt::format("{}: and so on in {} more places", file.string(), more));
+  return damage;
+}
+
+/// Lines of a history that is continued.
+class KeptLines {
+ public:
+  KeptLines(const fs::path& file, std::int64_t last, CsvTable::Lines lines)
+      : file_(file), last_(last), every_step_(lines == CsvTable::Lines::for_every_step) {}
+
+  /// False when the line belongs to a step after the last one.
+  bool add(const std::string& line, int number, std::ptrdiff_t cells) {
+    const auto step = step_of_line(line, cells);
+    if (step && *step > last_) return false;
+    if (!step) {
+      bad_.push_back(fmt::format("{}:{}: is no line of {} numbers, and is dropped", file_.string(), number, cells));
+    } else if (previous_ && *step <= *previous_) {
+      bad_.push_back(fmt::format("{}:{}: repeats step {}, and is dropped", file_.string(), number, *step));
+    } else {
+      if (every_step_ && previous_ && *step > *previous_ + 1) tell_gap(*previous_ + 1, *step - 1);
+      damage_.insert(damage_.end(), bad_.begin(), bad_.end());
+      bad_.clear();
+      previous_ = step;
+      if (!first_) first_ = step;
+      text_ += line + "\n";
+    }
+    return true;
+  }
+  /// A last line without its end was being written when a run died.
+  void finish() {
+    const std::int64_t reached = previous_.value_or(0);
+    if (every_step_ && reached < last_) {
+      damage_.insert(damage_.end(), bad_.begin(), bad_.end());
+      tell_gap(reached + 1, last_);
+    }
+  }
+  const std::string& text() const { return text_; }
+  std::optional<std::int64_t> first() const { return first_; }
+  std::optional<std::int64_t> last() const { return previous_; }
+  std::vector<std::string> damage() const { return shortened(damage_, file_); }
+
+ private:
+  void tell_gap(std::int64_t from, std::int64_t to) {
+    damage_.push_back(fmt::format("{}: {}", file_.string(), missing_steps(from, to)));
+  }
+
+  const fs::path& file_;
+  std::int64_t last_;
+  bool every_step_;
+  std::optional<std::int64_t> first_, previous_;
+  std::string text_;
+  std::vector<std::string> damage_, bad_;  ///< `bad_`: since the last line that is kept
+};
+
+/// Lines of `file` up to `step`, the header included, and what is wrong with them.
+KeptLines kept_lines(const fs::path& file, const std::string& header, std::int64_t step, CsvTable::Lines lines) {
   std::ifstream in(file);
   if (!in)
     throw InputError(file.string(), "the history to be continued is missing",
                      "put it back, or begin anew with --overwrite");
-  std::string line, text;
+  std::string line;
   std::getline(in, line);
   if (line != header)
     throw InputError(file.string(), fmt::format("has the columns `{}`, this run has `{}`", line, header),
                      "restart with the faces and output units of the case that wrote it, or in another directory");
-  text = header + "\n";
-  while (std::getline(in, line) && !in.eof()) {
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-    if (error != std::errc{} || number > step) break;
-    text += line + "\n";
-  }
-  return text;
+  KeptLines kept(file, step, lines);
+  const auto cells = std::count(header.begin(), header.end(), ',') + 1;
+  for (int number = 2; std::getline(in, line) && !in.eof() && kept.add(line, number, cells);) ++number;
+  kept.finish();
+  return kept;
 }
 
 }  // namespace
 
-CsvTable::CsvTable(const fs::path& file, std::vector<std::string> columns, std::optional<std::int64_t> continue_from)
+std::vector<HistoryBreak> breaks_of(const files::CsvColumns& history) {
+  std::vector<HistoryBreak> breaks;
+  const auto& steps = history.column("step");
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    const auto before = std::llround(steps[k - 1]), step = std::llround(steps[k]);
+    if (step == before + 1) continue;
+    const std::string what =
+        step > before ? missing_steps(before + 1, step - 1) : fmt::format("step {} follows step {}", step, before);
+    breaks.push_back({k, what});
+  }
+  return breaks;
+}
+
+CsvTable::CsvTable(const fs::path& file, std::vector<std::string> columns, std::optional<std::int64_t> continue_from,
+                   Lines lines)
     : file_(file), columns_(columns.size()) {
   std::string header = "step";
   for (const auto& column : columns) header += "," + column;
-  const std::string text = continue_from ? kept_lines(file, header, *continue_from) : header + "\n";
+  std::string text = header + "\n";
+  if (continue_from) {
+    const KeptLines kept = kept_lines(file, header, *continue_from, lines);
+    text += kept.text();
+    damage_ = kept.damage();
+    first_step_ = kept.first();
+    last_step_ = kept.last();
+  }
   try {
     files::write_atomically(file, text);
   } catch (const SolverError& error) {
@@ -85,14 +184,14 @@ Histories::Histories(const fs::path& folder, const case_file::Case& c, const std
     std::vector<std::string> columns{time};
     for (const auto& face : faces)
       columns.insert(columns.end(), {face + " flow " + flow, face + " pressure " + pressure, face + " area " + area});
-    faces_.emplace(folder / "faces.csv", columns, continue_from);
+    faces_.emplace(folder / "faces.csv", columns, continue_from, CsvTable::Lines::for_every_step);
   }
   if (!outlets.empty()) {
     std::vector<std::string> columns{time};
     for (const auto& o : outlets)
       columns.insert(columns.end(), {o.face() + " flow " + flow, o.face() + " pressure " + pressure,
                                      o.face() + " stored pressure " + pressure});
-    outlets_.emplace(folder / "outlets.csv", columns, continue_from);
+    outlets_.emplace(folder / "outlets.csv", columns, continue_from, CsvTable::Lines::for_every_step);
   }
   balance_.emplace(
       folder / "balance.csv",
@@ -102,12 +201,27 @@ Histories::Histories(const fs::path& folder, const case_file::Case& c, const std
           "viscous dissipation [W]", "numerical dissipation [W]", "power at openings [W]", "power of wall loads [W]",
           "interface power lumen [W]", "interface power wall [W]", "interface power residual [W]",
           fmt::format("max displacement [{}]", u.length), fmt::format("max velocity [{}]", u.velocity), "mesh quality"},
-      continue_from);
+      continue_from, CsvTable::Lines::for_every_step);
   steps_.emplace(folder / "steps.csv",
                  std::vector<std::string>{time, step_size, "newton iterations", "linear iterations", "mesh iterations",
                                           "first norm", "last norm", "assembly [s]", "set-up [s]", "linear [s]",
                                           "mesh [s]", "total [s]"},
-                 continue_from);
+                 continue_from, CsvTable::Lines::for_every_step);
+}
+
+std::vector<std::string> Histories::damage() const {
+  std::vector<std::string> all;
+  std::optional<std::int64_t> first;
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_}) {
+    if (!*table) continue;
+    all.insert(all.end(), (*table)->damage().begin(), (*table)->damage().end());
+    if (const auto step = (*table)->first_step(); step) first = std::min(first.value_or(*step), *step);
+  }
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_})
+    if (*table && (*table)->first_step() > first)
+      all.push_back(
+          fmt::format("{}: {}", (*table)->file().string(), missing_steps(*first, *(*table)->first_step() - 1)));
+  return all;
 }
 
 std::vector<double> Histories::balance_line(const StepHistory& step) const {

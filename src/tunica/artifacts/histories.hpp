@@ -11,16 +11,35 @@
 #include "tunica/bc/outlets.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/coupling/monitors.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::artifacts {
+
+/// A place where the steps of a history do not follow each other.
+struct HistoryBreak {
+  std::size_t line;  ///< number of the line of numbers after it, from 0
+  std::string what;  ///< "the lines of steps 4 to 6 are missing"
+};
+/// Lost and doubled lines of a history that has one for every step.
+std::vector<HistoryBreak> breaks_of(const files::CsvColumns& history);
 
 /// One CSV file. The first column is the number of the step, an integer. Not collective: for one rank.
 class CsvTable {
  public:
-  /// Begins the file anew, or with `continue_from` keeps the lines up to that step. `columns` after the first one, with
-  /// their units. Throws InputError when the file cannot be written or is to be continued and has other columns.
+  enum class Lines { for_every_step, for_some_steps };
+
+  /// Begins the file anew, or with `continue_from` keeps the lines up to that step; those that are no numbers or repeat
+  /// a step are dropped. `columns` after the first one, with their units. Throws InputError when the file cannot be
+  /// written or is to be continued and has other columns.
   CsvTable(const std::filesystem::path& file, std::vector<std::string> columns,
-           std::optional<std::int64_t> continue_from);
+           std::optional<std::int64_t> continue_from, Lines lines = Lines::for_some_steps);
+
+  /// What was found wrong with the lines that are kept: one damaged, repeated or missing, with its place.
+  const std::vector<std::string>& damage() const { return damage_; }
+  /// Of the lines that are kept; none when there is no line.
+  std::optional<std::int64_t> first_step() const { return first_step_; }
+  std::optional<std::int64_t> last_step() const { return last_step_; }
+  const std::filesystem::path& file() const { return file_; }
 
   /// Adds a line, whole or not at all. Throws SolverError when that fails: also when the file was moved or removed
   /// meanwhile.
@@ -30,6 +49,8 @@ class CsvTable {
   void sync() const;
 
  private:
+  std::vector<std::string> damage_;
+  std::optional<std::int64_t> first_step_, last_step_;
   std::filesystem::path file_;
   std::size_t columns_;
 };
@@ -59,6 +80,9 @@ class Histories {
   void append(const StepHistory& step, const std::vector<bc::Outlet>& outlets);
   /// As CsvTable::sync, for all of them.
   void sync() const;
+
+  /// What was found wrong with the histories that are continued.
+  std::vector<std::string> damage() const;
 
   static std::vector<std::string> files() {
     return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv"};

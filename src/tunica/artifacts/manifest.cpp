@@ -55,16 +55,28 @@ bool is_series_file(std::string name, const std::string& region) {
                      [](unsigned char c) { return std::isdigit(c) || c == '_'; });
 }
 
-[[noreturn]] void refuse(const fs::path& file) {
-  throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
-}
-
-/// An object with a list of at least one run.
+/// "Discarded" when it is no JSON, as after a loss of power.
 ordered_json read_manifest(const fs::path& file) {
   std::ifstream in(file);
-  auto json = ordered_json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("runs") || !json["runs"].is_array() || json["runs"].empty()) refuse(file);
-  return json;
+  return ordered_json::parse(in, nullptr, false);
+}
+
+/// Does a folder hold what only a run leaves?
+bool has_traces(const fs::path& folder) {
+  const bool histories = fs::exists(folder / "steps.csv") && fs::exists(folder / "balance.csv");
+  return histories || !list_checkpoints(folder / "checkpoints").empty();
+}
+
+/// Regions whose series are in a folder.
+std::vector<std::string> series_in(const fs::path& folder) {
+  std::vector<std::string> regions;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".pvd") regions.push_back(entry.path().stem().string());
+  return regions;
+}
+
+[[noreturn]] void not_ours(const fs::path& file) {
+  throw InputError(file.string(), "is no manifest that tunica wrote", "choose another output directory");
 }
 
 /// A name that leads to files in the folder of the results and nowhere else: they are removed by it.
@@ -78,7 +90,9 @@ std::string region_name(const ordered_json& region) {
 
 Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool continued)
     : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(files::time_stamp()) {
-  if (continued && fs::exists(file_)) earlier_runs_ = read_manifest(file_)["runs"].dump();
+  if (!continued || !fs::exists(file_)) return;
+  const ordered_json earlier = read_manifest(file_);
+  if (earlier.is_object()) earlier_runs_ = earlier.value("runs", ordered_json::array()).dump();
 }
 
 void Manifest::write(const ManifestProgress& p) {
@@ -123,8 +137,18 @@ void Manifest::write(const ManifestProgress& p) {
 
 std::optional<EarlierResults> find_results(const fs::path& folder) {
   const fs::path file = folder / file_name;
-  if (!fs::exists(file)) return std::nullopt;
-  const ordered_json json = read_manifest(file);
+  const bool exists = fs::exists(file);
+  const ordered_json json = exists ? read_manifest(file) : ordered_json();
+  if (!exists || json.is_discarded()) {
+    EarlierResults results;
+    results.damage = exists ? "is cut off or altered" : "is missing";
+    if (!has_traces(folder)) {
+      if (exists) not_ours(file);
+      return std::nullopt;
+    }
+    results.regions = series_in(folder);
+    return results;
+  }
   try {
     EarlierResults results;
     results.case_hash = from_hex(json.at("case").at("hash"));
@@ -135,8 +159,20 @@ std::optional<EarlierResults> find_results(const fs::path& folder) {
     for (const auto& region : json.at("mesh").at("regions")) results.regions.push_back(region_name(region));
     return results;
   } catch (const std::exception&) {
-    refuse(file);
+    not_ours(file);
   }
+}
+
+void record_end(const fs::path& folder, const std::string& status, const std::string& message) {
+  const fs::path file = folder / file_name;
+  ordered_json json = read_manifest(file);
+  if (!json.is_object() || !json.contains("runs") || !json["runs"].is_array() || json["runs"].empty()) return;
+  ordered_json& run = json["runs"].back();
+  if (!run.is_object() || run.value("status", "") != "running") return;
+  run["status"] = status;
+  run["message"] = message;
+  run["ended"] = files::time_stamp();
+  files::write_atomically(file, json.dump(2) + "\n");
 }
 
 void remove_results(const fs::path& folder, const EarlierResults& results) {

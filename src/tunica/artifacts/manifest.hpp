@@ -45,7 +45,7 @@ struct ManifestProgress {
 /// rank.
 class Manifest {
  public:
-  /// `continued`: keep the list of earlier runs.
+  /// `continued`: keep the list of earlier runs, as far as it can be read.
   Manifest(const std::filesystem::path& folder, const ManifestHead& head, bool continued);
   /// Writes the file anew. Throws SolverError when it cannot.
   void write(const ManifestProgress& progress);
@@ -59,13 +59,19 @@ class Manifest {
 
 /// What a manifest tells about results that are there already.
 struct EarlierResults {
+  std::string damage;  ///< of the manifest: is missing, or is cut off. Then nothing but the regions is known
   std::uint64_t case_hash = 0, mesh_hash = 0;
   std::string case_file, status;
   std::int64_t last_step = 0;
   std::vector<std::string> regions;
 };
-/// None when there is no manifest. Throws InputError when there is one that cannot be read. Not collective.
+/// None when the folder holds neither a manifest nor checkpoints or histories. Throws InputError when there is a
+/// manifest.json of something else. Not collective.
 std::optional<EarlierResults> find_results(const std::filesystem::path& folder);
+
+/// Writes how the last run in the manifest ended, when that manifest says that it is running: for an end of which only
+/// one rank may know. Does nothing when there is no such manifest. Not collective.
+void record_end(const std::filesystem::path& folder, const std::string& status, const std::string& message);
 
 /// Removes the files that a run writes, and nothing else. Not collective.
 void remove_results(const std::filesystem::path& folder, const EarlierResults& results);

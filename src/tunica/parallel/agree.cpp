@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tunica/base/error.hpp"
+#include "tunica/parallel/shared_error.hpp"
 
 namespace tunica::parallel {
 
@@ -37,7 +38,7 @@ Report describe(const std::exception_ptr& error) {
 
 [[noreturn]] void raise(const Report& report) {
   if (report.kind == Kind::solver) throw SolverError(report.texts.at(0));
-  if (report.kind == Kind::other) throw std::runtime_error(report.texts.at(0));
+  if (report.kind == Kind::other) throw SharedError(report.texts.at(0));
   std::vector<Problem> problems;
   for (std::size_t i = 0; i + 2 < report.texts.size(); i += 3)
     problems.push_back({report.texts[i], report.texts[i + 1], report.texts[i + 2]});

@@ -67,11 +67,22 @@ void Log::error(std::string_view text) { write("error", text); }
 void Log::write_to_screen(std::string_view kind, std::string_view text) {
   if (screen_ == nullptr) return;
   const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
-  put(screen_, fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_));
+  const std::string line = fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_);
+  if (const int error = put(screen_, line); error != 0) give_up_screen(error);
 }
 
 void Log::write(std::string_view kind, std::string_view text) {
   write_to_screen(kind, text);
+  write_to_file(kind, text);
+}
+
+void Log::give_up_screen(int error) {
+  screen_ = nullptr;
+  write_to_file("warning", fmt::format("the screen takes no more messages ({}): they are in this file alone",
+                                       std::strerror(error)));
+}
+
+void Log::write_to_file(std::string_view kind, std::string_view text) {
   if (file_ == nullptr) return;
   if (const int error = put(file_, fmt::format("{} {:7} {}\n", time_stamp(), kind, text)); error != 0)
     give_up_file(error);
@@ -87,7 +98,7 @@ void Log::give_up_file(int error) {
 void Log::status(std::string_view line) {
   if (screen_ == nullptr || !on_terminal_ || (line.empty() && status_.empty())) return;
   status_ = line;
-  put(screen_, fmt::format("{}{}", erase_line, status_));
+  if (const int error = put(screen_, fmt::format("{}{}", erase_line, status_)); error != 0) give_up_screen(error);
 }
 
 int Log::columns() const {

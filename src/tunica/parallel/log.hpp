@@ -15,8 +15,9 @@ namespace tunica::parallel {
 bool is_terminal(std::FILE* stream);
 
 /// All ranks call alike and rank 0 speaks; a finding of another rank travels to rank 0 first. Lines reach the file at
-/// once, so that a run that dies leaves its log. A log that cannot be written any more (the disk is full) does not end
-/// the run: what counts are the results, whose writers throw. That is said once, on the screen.
+/// once, so that a run that dies leaves its log. A screen that takes no more (a closed pipe, a terminal that is gone)
+/// is left alone from then on, and the file says so. A log that cannot be written any more (the disk is full) does not
+/// end the run either: what counts are the results, whose writers throw. That is said once, on the screen.
 class Log {
  public:
   struct Targets {
@@ -33,6 +34,8 @@ class Log {
   void info(std::string_view text);
   void warning(std::string_view text);
   void error(std::string_view text);
+  /// An error that the screen is told of elsewhere: into the file alone.
+  void note_error(std::string_view text) { write_to_file("error", text); }
 
   /// One line kept below all others on a terminal and replaced by the next call; empty removes it. Never in the file,
   /// and nothing at all where the screen is no terminal.
@@ -46,6 +49,8 @@ class Log {
  private:
   void write(std::string_view kind, std::string_view text);
   void write_to_screen(std::string_view kind, std::string_view text);
+  void write_to_file(std::string_view kind, std::string_view text);
+  void give_up_screen(int error);
   void give_up_file(int error);
 
   std::filesystem::path name_;

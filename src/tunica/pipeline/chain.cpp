@@ -106,7 +106,10 @@ class ChainRun {
     try {
       const int signal = stage.run(
           {.comm = comm_, .file = file, .resume = decision.resume, .program = request_.program, .screen = screen_});
-      parallel::on_root(comm_, [&] { end(signal == 0 ? "done" : "stopped", "", MPI_Wtime() - start); });
+      parallel::on_root(comm_, [&] {
+        if (signal == 0) record_.outputs = outputs_of(folder_, stage.outputs);
+        end(signal == 0 ? "done" : "stopped", "", MPI_Wtime() - start);
+      });
       return signal;
     } catch (const InputError& error) {
       record_failure(error.what(), MPI_Wtime() - start);
@@ -119,6 +122,12 @@ class ChainRun {
           "stage {} ({} of {}) failed: {}\n  the stages before it are kept, and so is what it "
           "has written to {}; to go on: tunica run {}",
           stage.name, k + 1, count_, error.what(), fs::path(file).parent_path().string(), request_.case_file.string()));
+    } catch (const std::exception& error) {
+      record_failure(error.what(), MPI_Wtime() - start);
+      throw;
+    } catch (...) {
+      record_failure("unknown error", MPI_Wtime() - start);
+      throw;
     }
   }
 
@@ -155,6 +164,7 @@ class ChainRun {
                .status = "running",
                .message = "",
                .inputs = plan_.inputs,
+               .outputs = {},
                .seconds = plan_.resume ? plan_.last->seconds : 0,
                .ranks = parallel::size(comm_),
                .version = request_.program.version,

@@ -11,6 +11,7 @@
 #include "tunica/base/text.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/case/mesh_settings.hpp"
+#include "tunica/case/table_ends.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -139,6 +140,21 @@ Inputs inputs_of(const Chain& chain, const Stage& stage, const config::Document&
   return inputs;
 }
 
+/// With the same inputs as the last time.
+void compare_results(const Stage& stage, const fs::path& folder, Plan& p) {
+  if (p.last->status != "done") {
+    p.resume = true;
+    p.reason = fmt::format("it was {}", p.last->status == "running" ? "interrupted" : p.last->status);
+    return;
+  }
+  const auto lost = lost_outputs(folder, p.last->outputs);
+  p.fresh = lost.empty() && fs::exists(folder / stage.result);
+  if (p.fresh) return;
+  p.resume = !lost.empty() && stage.recovers && stage.recovers(folder, lost);
+  p.reason = lost.empty() ? fmt::format("its result {} is missing", stage.result) : text_of_lost(lost);
+  if (p.resume) p.reason += "; it goes on with what is there";
+}
+
 /// What is to be done after a last time with the same inputs that did not come to its end, or with others.
 void compare(const Stage& stage, const fs::path& folder, Plan& p) {
   if (!p.last) {
@@ -147,11 +163,7 @@ void compare(const Stage& stage, const fs::path& folder, Plan& p) {
   }
   const Change change = difference(p.last->inputs, p.inputs);
   if (p.last->inputs == p.inputs) {
-    p.fresh = p.last->status == "done" && fs::exists(folder / stage.result);
-    p.resume = p.last->status != "done";
-    if (!p.fresh)
-      p.reason = p.resume ? fmt::format("it was {}", p.last->status == "running" ? "interrupted" : p.last->status)
-                          : fmt::format("its result {} is missing", stage.result);
+    compare_results(stage, folder, p);
     return;
   }
   p.resume = stage.continues(change);
@@ -184,6 +196,8 @@ Chain read_chain(const fs::path& file, const std::optional<fs::path>& directory,
   if (chain.settings.mesh) check_faces_to_come(chain, problems);
   check_fibres(chain.settings, problems);
   check_post(chain.settings, problems);
+  const auto ends = case_file::check_table_ends(chain.settings.boundary, case_file::asked_by_run(chain.settings));
+  problems.insert(problems.end(), ends.begin(), ends.end());
   if (!problems.empty()) throw InputError(std::move(problems));
   return chain;
 }

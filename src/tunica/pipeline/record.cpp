@@ -76,6 +76,7 @@ std::optional<Record> read_record(const fs::path& folder) {
     r.message = json.at("message");
     r.inputs.settings = json.at("settings").get<Map>();
     r.inputs.files = json.at("files").get<Map>();
+    r.outputs = json.value("outputs", Outputs());
     r.seconds = json.at("seconds");
     r.ranks = json.at("ranks");
     r.version = json.at("program").at("version");
@@ -99,6 +100,7 @@ void write_record(const fs::path& folder, const Record& r) {
   json["fingerprint"] = r.inputs.fingerprint();
   json["settings"] = r.inputs.settings;
   json["files"] = r.inputs.files;
+  json["outputs"] = r.outputs;
   files::write_atomically(folder / record_file, config::json_text(json));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tunica/pipeline/outputs.hpp"
 #include "tunica/pipeline/stage.hpp"
 
 namespace tunica::pipeline {
@@ -25,6 +26,7 @@ struct Record {
   std::string stage, status;  ///< running, done, stopped, failed
   std::string message;        ///< of the error or the signal
   Inputs inputs;
+  Outputs outputs;     ///< what it has left when it was done; empty in records that do not tell
   double seconds = 0;  ///< all times together that led to this result
   int ranks = 1;
   std::string version, commit, time;  ///< of the program; when it was written

@@ -49,6 +49,8 @@ struct Stage {
   const char* file;    ///< name of its case file
   const char* output;  ///< key of the case that names another folder; empty: there is none
   const char* result;  ///< the file that is written last
+  /// What it leaves, as patterns of paths in its folder: once one of these files is gone or damaged, it is not fresh.
+  std::vector<std::string> outputs;
   std::function<bool(const case_file::Case&)> wanted;
 
   /// Its case file, with paths that count from `folder`. On rank 0, when the stages before it are done.
@@ -65,6 +67,8 @@ struct Stage {
   std::vector<std::string> partial;
   /// Can it go on with what is there after such a change?
   std::function<bool(const Change&)> continues;
+  /// Can it, with the same inputs, make up for outputs that are lost by going on with what is there? May be empty: no.
+  std::function<bool(const std::filesystem::path& folder, const std::vector<std::string>& lost)> recovers;
   /// Does it. Returns the signal that stopped it, 0: none. Collective.
   std::function<int(const StageCall&)> run;
 };

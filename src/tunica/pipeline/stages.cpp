@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tunica/artifacts/checkpoint.hpp"
+#include "tunica/artifacts/run_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/case/fibres_case.hpp"
@@ -15,6 +15,7 @@
 #include "tunica/stages/fibres/fibres.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/post/post.hpp"
+#include "tunica/stages/prestress/flow_folder.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/report/report.hpp"
 #include "tunica/stages/run/run.hpp"
@@ -215,10 +216,9 @@ int run_prestress(const StageCall& call) {
   stages::PrestressRequest request;
   request.case_file = call.file;
   request.program = call.program;
-  request.keep_flow = on_all(call.comm, [&] { return call.resume && fs::exists(call.folder() / "flow.checkpoint"); });
+  request.keep_flow = on_all(call.comm, [&] { return call.resume && stages::has_flow(call.folder()); });
   request.overwrite = !request.keep_flow;
-  stages::prestress(call.comm, request, call.screen);
-  return 0;
+  return stages::prestress(call.comm, request, call.screen);
 }
 
 int run_outlets(const StageCall& call) {
@@ -242,8 +242,14 @@ int run_case_stage(const StageCall& call) {
   stages::RunRequest request;
   request.case_file = call.file;
   request.program = call.program;
-  request.restart = on_all(
-      call.comm, [&] { return call.resume && !artifacts::list_checkpoints(call.folder() / "checkpoints").empty(); });
+  const auto say = say_to(call);
+  request.restart = on_all(call.comm, [&] {
+    if (!call.resume) return false;
+    const auto found = artifacts::find_continuation(call.folder());
+    if (!found.possible)
+      for (const auto& line : found.warnings) say("warning: " + line + "; the run begins anew");
+    return found.possible;
+  });
   request.overwrite = !request.restart;
   return stages::run(call.comm, request, call.screen).signal;
 }
@@ -268,6 +274,16 @@ bool same_flow(const Change& change) {
     return key.starts_with("wall.") || (key.starts_with("prestress.") && !key.starts_with("prestress.flow"));
   };
   return change.files.empty() && std::all_of(change.settings.begin(), change.settings.end(), of_wall);
+}
+
+/// What comes after the steady flow is done anew in any case.
+bool flow_is_kept(const fs::path& folder, const std::vector<std::string>&) { return stages::has_flow(folder); }
+
+/// A run that has lost checkpoints goes on from one that is left; fields and histories come from all its steps.
+bool run_goes_on(const fs::path& folder, const std::vector<std::string>& lost) {
+  const bool only_checkpoints =
+      std::all_of(lost.begin(), lost.end(), [](const auto& name) { return name.starts_with("checkpoints/"); });
+  return only_checkpoints && artifacts::find_continuation(folder).possible;
 }
 
 bool more_steps(const Change& change) {
@@ -300,6 +316,7 @@ const std::vector<Stage>& stages() {
        .file = "mesh.yaml",
        .output = "mesh.output",
        .result = "meshes.yaml",
+       .outputs = {"lumen/*", "wall/*", "meshes.yaml", "report.json", "report.html"},
        .wanted = [](const case_file::Case& c) { return c.mesh.has_value(); },
        .document = mesh_document,
        .description = description_of<case_file::MeshCase>(),
@@ -308,12 +325,14 @@ const std::vector<Stage>& stages() {
        .reads = {},
        .partial = {},
        .continues = never,
+       .recovers = {},
        .run = run_mesh},
       {.name = "fibres",
        .what = "material directions in the wall",
        .file = "fibres.yaml",
        .output = "fibres.output",
        .result = "meshes.yaml",
+       .outputs = {"lumen/*", "wall/*", "meshes.yaml", "report.json"},
        .wanted = [](const case_file::Case& c) { return c.fibres.has_value(); },
        .document = fibres_document,
        .description = description_of<case_file::FibresCase>(),
@@ -322,12 +341,15 @@ const std::vector<Stage>& stages() {
        .reads = {},
        .partial = {},
        .continues = never,
+       .recovers = {},
        .run = run_fibres},
       {.name = "prestress",
        .what = "prestress of the imaged wall",
        .file = "case.yaml",
        .output = "prestress.output",
        .result = "start.checkpoint",
+       .outputs = {"start.checkpoint", "flow.checkpoint", "wall.vtu", "prestress.json", "boundary.yaml",
+                   "fixed_point.*", "flow/*", "wall/*", "traction/*"},
        .wanted = [](const case_file::Case& c) { return c.prestress.has_value(); },
        .document = prestress_document,
        .description = description_of<case_file::Case>(),
@@ -354,14 +376,16 @@ const std::vector<Stage>& stages() {
                    "boundary.*.rcr.capacitance",
                    "boundary.*.rcr.initial_pressure"},
        .reads = {},
-       .partial = {"flow.checkpoint"},
+       .partial = {"flow.checkpoint", "flow_checkpoints"},
        .continues = same_flow,
+       .recovers = flow_is_kept,
        .run = run_prestress},
       {.name = "outlets",
        .what = "outlets for the pressures and flows that are asked for",
        .file = "case.yaml",
        .output = "outlets.output",
        .result = "outlets.yaml",
+       .outputs = {"outlets.yaml", "tuning.*", "pressure.svg"},
        .wanted = [](const case_file::Case& c) { return c.outlets && !c.outlets->given_file; },
        .document = outlets_document,
        .description = description_of<case_file::Case>(),
@@ -370,12 +394,14 @@ const std::vector<Stage>& stages() {
        .reads = {},
        .partial = {"tuning.json", "probe", "cycle_*"},
        .continues = never,
+       .recovers = {},
        .run = run_outlets},
       {.name = "run",
        .what = "the case itself",
        .file = "case.yaml",
        .output = "",
        .result = "manifest.json",
+       .outputs = {"manifest.json", "*.csv", "*.pvd", "*.pvtu", "*.vtu", "checkpoints/*"},
        .wanted = [](const case_file::Case&) { return true; },
        .document = run_document,
        .description = description_of<case_file::Case>(),
@@ -385,12 +411,14 @@ const std::vector<Stage>& stages() {
        .reads = {},
        .partial = {"checkpoints"},
        .continues = more_steps,
+       .recovers = run_goes_on,
        .run = run_case_stage},
       {.name = "post",
        .what = "figures of the cycle",
        .file = "case.yaml",
        .output = "post.output",
        .result = "post.json",
+       .outputs = {"post.json", "*.csv", "*.svg", "*.vtp", "*.vtu"},
        .wanted = [](const case_file::Case& c) { return c.post.has_value(); },
        .document = post_document,
        .description = description_of<case_file::Case>(),
@@ -401,12 +429,14 @@ const std::vector<Stage>& stages() {
        .reads = run_manifest,
        .partial = {},
        .continues = never,
+       .recovers = {},
        .run = run_post},
       {.name = "report",
        .what = "one page with what was done and found",
        .file = "report.yaml",
        .output = "",
        .result = "report.html",
+       .outputs = {"report.html"},
        .wanted = [](const case_file::Case& c) { return c.report.has_value(); },
        .document = report_document,
        .description = description_of<stages::ReportCase>(),
@@ -415,6 +445,7 @@ const std::vector<Stage>& stages() {
        .reads = records,
        .partial = {},
        .continues = never,
+       .recovers = {},
        .run = run_report},
   };
   return all;

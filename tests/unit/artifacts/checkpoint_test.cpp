@@ -57,7 +57,7 @@ class CheckpointTest : public testing::Test {
 
 TEST_F(CheckpointTest, GivesBackEveryBit) {
   write_checkpoint(file, mesh, written);
-  const Checkpoint read = read_checkpoint(file, mesh, blank(written), 42);
+  const Checkpoint read = read_checkpoint(file, mesh, blank(written), 42, "another");
   const auto &a = written.state, &b = read.state;
   EXPECT_EQ(a.velocity_pressure, b.velocity_pressure);  // ghosts included
   EXPECT_EQ(a.acceleration, b.acceleration);
@@ -91,7 +91,7 @@ TEST_F(CheckpointTest, DoesNotDependOnTheNumberOfRanks) {
 TEST_F(CheckpointTest, RefusesWhatDoesNotFit) {
   write_checkpoint(file, mesh, written);
   const auto refusal = [&](std::uint64_t mesh_hash, const coupling::State& start) {
-    return message_of<InputError>([&] { read_checkpoint(file, mesh, start, mesh_hash); });
+    return message_of<InputError>([&] { read_checkpoint(file, mesh, start, mesh_hash, "another"); });
   };
   EXPECT_NE(refusal(43, blank(written)).find("belongs to another mesh"), std::string::npos);
   coupling::State other = blank(written);
@@ -107,7 +107,7 @@ TEST_F(CheckpointTest, NoticesDamage) {
   MPI_Barrier(MPI_COMM_WORLD);
   const auto refusal = [&](const std::string& contents) {
     const auto bad = folder.write("bad.checkpoint", contents);
-    return message_of<InputError>([&] { read_checkpoint(bad, mesh, blank(written), 42); });
+    return message_of<InputError>([&] { read_checkpoint(bad, mesh, blank(written), 42, "do that instead"); });
   };
   std::string flipped = good;
   flipped[flipped.size() - 100] ^= 1;
@@ -117,6 +117,39 @@ TEST_F(CheckpointTest, NoticesDamage) {
   std::string newer = good;
   newer[8] = 2;
   EXPECT_NE(refusal(newer).find("format version 2"), std::string::npos);
+  EXPECT_NE(refusal("").find("not complete"), std::string::npos);
+  EXPECT_NE(refusal(good + "x").find("goes on after its end"), std::string::npos);
+  EXPECT_NE(refusal(flipped).find("do that instead"), std::string::npos);
+}
+
+TEST_F(CheckpointTest, EveryBitCounts) {
+  write_checkpoint(file, mesh, written);
+  if (parallel::rank(MPI_COMM_WORLD) != 0) return;
+  EXPECT_EQ(damage_of(file), "");
+  const std::string good = slurp(file);
+  const auto bad = folder.path() / "bad.checkpoint";
+  for (std::size_t k = 0; k < good.size(); k += k < 1200 ? 1 : 97) {
+    std::string flipped = good;
+    flipped[k] ^= static_cast<char>(1 << (k % 8));
+    std::ofstream(bad, std::ios::binary) << flipped;
+    EXPECT_NE(damage_of(bad), "") << k;
+  }
+}
+
+TEST_F(CheckpointTest, TheLastWholeOneIsFound) {
+  for (const int step : {1, 2, 3}) write_checkpoint(checkpoint_file(folder.path(), step), mesh, written);
+  if (parallel::rank(MPI_COMM_WORLD) != 0) return;
+  const auto cut = [&](int step) { fs::resize_file(checkpoint_file(folder.path(), step), 100); };
+  EXPECT_EQ(step_of(last_sound_checkpoint(folder.path()).file.value()), 3);
+  cut(3);
+  const auto found = last_sound_checkpoint(folder.path());
+  EXPECT_EQ(step_of(found.file.value()), 2);
+  ASSERT_EQ(found.passed_over.size(), 1u);
+  EXPECT_NE(found.passed_over[0].find("step_00000003.checkpoint: the checkpoint is not complete"), std::string::npos);
+  cut(1), cut(2);
+  EXPECT_FALSE(last_sound_checkpoint(folder.path()).file);
+  EXPECT_EQ(last_sound_checkpoint(folder.path()).passed_over.size(), 3u);
+  EXPECT_FALSE(last_sound_checkpoint(folder.path() / "none").file);
 }
 
 TEST(Checkpoints, AreListedInTheOrderOfSteps) {

@@ -4,6 +4,7 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -164,6 +165,28 @@ TEST(Progress, DrawsAndRemovesTheBarOnATerminal) {
     progress.update(2);  // too soon after the last one to be drawn
   }
   EXPECT_EQ(terminal.text(), "\r\033[K");
+}
+
+TEST(Log, GoesOnWithoutAScreenThatTakesNoMore) {
+  const SharedFile file;
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[0]);
+  const auto earlier = std::signal(SIGPIPE, SIG_IGN);
+  std::FILE* screen = fdopen(ends[1], "w");
+  {
+    Log log(MPI_COMM_WORLD, {.file = file.path, .screen = screen});
+    log.info("first");
+    log.warning("second");
+    log.note_error("third");
+  }
+  std::fclose(screen);
+  std::signal(SIGPIPE, earlier);
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string text = file.text();
+  for (const char* line : {"first", "the screen takes no more messages (Broken pipe)", "second", "third"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << " in " << text;
+  EXPECT_EQ(text.find("takes no more"), text.rfind("takes no more"));
 }
 
 }  // namespace

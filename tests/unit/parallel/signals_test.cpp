@@ -37,6 +37,35 @@ TEST(StopSignals, ForgetTheRequestAndGiveBackEarlierHandlers) {
   EXPECT_FALSE(stop_requested(MPI_COMM_WORLD));
 }
 
+TEST(StopSignals, OneWithinAnotherDoesNothing) {
+  const StopSignals outer;
+  {
+    const StopSignals inner;
+    std::raise(SIGUSR1);
+    EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGUSR1);
+  }
+  EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGUSR1);
+}
+
+TEST(StopSignals, AHangUpAsksForTheEndHoweverOftenItComes) {
+  const StopSignals signals;
+  std::raise(SIGHUP);
+  EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGHUP);
+  usleep(600000);
+  std::raise(SIGHUP);
+  EXPECT_EQ(stop_requested(MPI_COMM_WORLD), SIGHUP);
+}
+
+TEST(StopSignals, AHangUpThatIsIgnoredStaysSo) {
+  std::signal(SIGHUP, SIG_IGN);
+  {
+    const StopSignals signals;
+    std::raise(SIGHUP);
+    EXPECT_EQ(stop_requested(MPI_COMM_WORLD), 0);
+  }
+  std::signal(SIGHUP, SIG_DFL);
+}
+
 TEST(StopSignals, EndTheProcessAtTheSecondRequest) {
   const pid_t child = fork();
   if (child == 0) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/artifacts/histories.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/csv_file.hpp"
@@ -70,11 +71,34 @@ Window choose_window(const std::vector<double>& times, const analysis::PostSetti
   return w;
 }
 
+namespace {
+
+/// What the histories say of a window comes from all of its steps.
+void require_all_steps(const files::CsvColumns& table, const std::vector<double>& times, const Window& window) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(
+        table.file.string(), what,
+        "choose another window by post.from and post.until, or run the case again from a checkpoint before "
+        "it: tunica run CASE --restart CHECKPOINT, or from its start: --overwrite");
+  };
+  for (const auto& b : artifacts::breaks_of(table))
+    if (times[b.line] >= window.from && times[b.line - 1] <= window.until) refuse(b.what);
+  if (times.size() < 2) return;  // too few for any window
+  // A line belongs to an instant within its step, the window to ends of steps.
+  const double first = 1.5 * (times[1] - times[0]), last = 1.5 * (times.back() - times[times.size() - 2]);
+  if (table.column("step").front() > 1 && times.front() > window.from + first)
+    refuse(fmt::format("begins at {:.6g} s only", times.front()));
+  if (times.back() < window.until - last) refuse(fmt::format("ends at {:.6g} s already", times.back()));
+}
+
+}  // namespace
+
 std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const case_file::Case& c,
                                           const analysis::Vessel& vessel, const Window& window) {
   if (!c.solves_fluid()) return {};
   const auto table = files::read_csv(results / "faces.csv", "run the case first: tunica run");
   const auto times = si_column(table, "time", dimension::time);
+  require_all_steps(table, times, window);
   std::vector<OpeningHistory> openings;
   for (const auto& opening : vessel.openings) {
     const auto flow = si_column(table, opening.name + " flow", dimension::volume_flow),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "tunica/artifacts/checkpoint.hpp"
@@ -14,6 +15,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
 #include "tunica/config/json_text.hpp"
+#include "tunica/case/table_ends.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/prestress.hpp"
@@ -27,6 +29,8 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
 #include "tunica/parallel/progress.hpp"
+#include "tunica/parallel/signals.hpp"
+#include "tunica/stages/prestress/flow_folder.hpp"
 #include "tunica/stages/prestress/steady_flow.hpp"
 #include "tunica/wall/parameters.hpp"
 #include "tunica/wall/surface.hpp"
@@ -101,12 +105,16 @@ void check_support(const case_file::Case& wall, const std::vector<std::string>& 
 class PrestressRun {
  public:
   PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen);
-  void steps();
+  /// To the end, or to another one, of which prestress.json tells. Returns the signal that stopped it, or 0.
+  int steps();
 
  private:
+  void compute();
+  void record_end(const char* status, const std::string& message);
   void read();
   void prepare_folder();
   void find_flow();
+  std::string command(const char* option) const;
   void take_steps_of_flow(coupling::Problem& problem);
   void write_flow(const coupling::Problem& problem, const case_file::Case& flow);
   void take_forces(const coupling::Problem& problem);
@@ -200,7 +208,12 @@ void PrestressRun::read() {
     lumen_interface_ = case_.meshes.interface->lumen_faces;
     wall_interface_ = case_.meshes.interface->wall_faces;
   }
-  check_support(wall_case(case_, wall_faces_), wall_faces_, wall_interface_);
+  const auto wall = wall_case(case_, wall_faces_);
+  check_support(wall, wall_faces_, wall_interface_);
+  parallel::on_root(comm_, [&] {
+    auto problems = case_file::check_table_ends(wall.boundary, case_file::asked_by_prestress(case_));
+    if (!problems.empty()) throw InputError(std::move(problems));
+  });
 }
 
 void PrestressRun::prepare_folder() {
@@ -210,30 +223,24 @@ void PrestressRun::prepare_folder() {
       throw InputError(folder_.string(), "holds a prestress already",
                        "replace it by --overwrite, find it anew with the flow that is there by --keep-flow, or name "
                        "another folder by --output");
-    if (request_.keep_flow && !fs::exists(folder_ / "flow.checkpoint"))
-      throw InputError(folder_.string(), "holds no flow.checkpoint that could be kept", "leave out --keep-flow");
+    if (request_.keep_flow && !has_flow(folder_))
+      throw InputError(folder_.string(), "holds no flow.checkpoint that could be kept",
+                       "find the flow: " + command("--overwrite"));
     files::try_outputs(folder_, {"prestress.log", report_file, "wall.vtu", "start.checkpoint", "flow.checkpoint",
                                  "boundary.yaml", "fixed_point.csv"});
     for (const char* file : {"prestress.log", report_file, "wall.vtu", "start.checkpoint"}) fs::remove(folder_ / file);
+    if (!request_.keep_flow) remove_flow(folder_);
   });
 }
 
+std::string PrestressRun::command(const char* option) const {
+  return fmt::format("tunica prestress {}{} {}", request_.case_file.string(),
+                     request_.directory ? " --output " + request_.directory->string() : "", option);
+}
+
 void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
-  case_file::SteadyFlow flow = *settings().flow;
-  const fs::path file = folder_ / "flow.checkpoint";
-  if (request_.keep_flow) {
-    flow_ = artifacts::read_checkpoint(file, lumen_, flow_, lumen_hash_).state;
-    flow.steps = 1;  // the last one again, for the forces, which belong to a step
-    flow.step = flow_.dt;
-  }
-  std::optional<parallel::Progress> bar;
-  bar.emplace(*log_, "steady flow", 0.0, flow.steps);
-  const auto [last, before_last] = step_to_steady_state(problem, flow_, flow, [&](const SteadyRecord& r) {
-    bar->update(r.step,
-                fmt::format("velocity changes by {:.1e}, pressure by {:.1e}", r.velocity_change, r.pressure_change));
-  });
-  steady_ = last;
-  bar.reset();
+  const FlowFolder flow_folder{folder_, lumen_hash_, "find the flow anew: " + command("--overwrite")};
+  steady_ = find_steady_flow(problem, flow_, *settings().flow, flow_folder, request_.keep_flow, *log_);
   const auto& units = case_.output.units;
   log_->info(fmt::format(
       "steady flow: {} steps to t = {:.4g} s, velocity up to {:.4g} {}, pressure up to {:.4g} {}; in the last step "
@@ -241,12 +248,12 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
       steady_.step, steady_.time, steady_.largest_velocity * per_si(units.velocity, config::dimension::velocity),
       units.velocity, steady_.largest_pressure * per_si(units.pressure, config::dimension::pressure), units.pressure,
       steady_.velocity_change, steady_.pressure_change));
-  if (const double change = std::max(steady_.velocity_change, steady_.pressure_change); change > flow.tolerance)
+  if (const double change = std::max(steady_.velocity_change, steady_.pressure_change);
+      change > settings().flow->tolerance)
     log_->warning(
         fmt::format("the flow is not steady: asked were changes of {:.1e} in a step. The prestress belongs "
                     "to its last instant",
-                    flow.tolerance));
-  if (!request_.keep_flow) artifacts::write_checkpoint(file, lumen_, {before_last, {}, 0, lumen_hash_});
+                    settings().flow->tolerance));
 }
 
 void PrestressRun::write_flow(const coupling::Problem& problem, const case_file::Case& flow) {
@@ -422,6 +429,7 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
   json["case_file"] = request_.case_file.string();
   json["case"] = text_;
   json["mesh_hash"] = mesh_hash_;
+  json["status"] = result.converged ? "completed" : "failed";
   json["converged"] = result.converged;
   if (!result.converged) json["failure"] = result.failure;
   json["iterations"] = result.history.size();
@@ -450,21 +458,67 @@ void PrestressRun::find_wall() {
                                               "linear iterations", "seconds"},
                      std::nullopt);
   });
-  const auto result = coupling::find_prestress(problem, settings().fixed_point, settings().load_time,
-                                               [&](const auto& record) { follow(record); });
+  const auto result =
+      coupling::find_prestress(problem, settings().fixed_point, settings().load_time, [&](const auto& record) {
+        follow(record);
+        if (const int signal = parallel::stop_requested(comm_); signal != 0) throw Stopped{signal};
+      });
   plot_history(result.history);
   write_report(result);
   if (!result.converged)
     throw SolverError(fmt::format(
-        "the fixed point of the prestress did not converge: {}\n  flow and traction are in {}; --keep-flow goes on "
-        "with them\n  try a smaller `relaxation`, more `load_steps`, or another `method`",
-        result.failure, folder_.string()));
+        "the fixed point of the prestress did not converge: {}\n  try a smaller "
+        "`relaxation`, more `load_steps`, or another `method`{}",
+        result.failure,
+        case_.solves_fluid()
+            ? fmt::format(", with the flow and traction that are in {}: {}", folder_.string(), command("--keep-flow"))
+            : fmt::format(": {}", command("--overwrite"))));
   write_prestress_file(result.prestress);
   write_stress(problem, result.state);
   write_start(result.state);
 }
 
-void PrestressRun::steps() {
+// For an end that has a signal or an error of its own to tell.
+void PrestressRun::record_end(const char* status, const std::string& message) {
+  log_->note_error(message);
+  if (parallel::rank(comm_) != 0) return;
+  const ordered_json json = {{"program", {{"version", request_.program.version}, {"commit", request_.program.commit}}},
+                             {"case_file", request_.case_file.string()},
+                             {"case", text_},
+                             {"mesh_hash", mesh_hash_},
+                             {"status", status},
+                             {"converged", false},
+                             {"failure", message},
+                             {"seconds", MPI_Wtime() - started_}};
+  try {
+    // A fixed point that did not converge has its report already.
+    if (!fs::exists(folder_ / report_file)) files::write_atomically(folder_ / report_file, json.dump(2) + "\n");
+  } catch (const std::exception& error) {
+    log_->warning(fmt::format("prestress.json does not tell the end: {}", error.what()));
+  }
+}
+
+int PrestressRun::steps() {
+  try {
+    compute();
+    return 0;
+  } catch (const Stopped& stopped) {
+    record_end("stopped", fmt::format("signal {}", stopped.signal));
+    const bool has_flow = case_.solves_fluid() && flow_.step > 0;
+    log_->warning(fmt::format("stopped by SIG{}{}. To continue:\n  {}", sigabbrev_np(stopped.signal),
+                              has_flow ? "; the steady flow is kept" : "",
+                              command(has_flow ? "--keep-flow" : "--overwrite")));
+    return stopped.signal;
+  } catch (const std::exception& error) {
+    record_end("failed", error.what());
+    throw;
+  } catch (...) {
+    record_end("failed", "unknown error");
+    throw;
+  }
+}
+
+void PrestressRun::compute() {
   if (case_.solves_fluid()) find_flow();
   find_wall();
   log_->info(fmt::format("prestress found in {:.1f} s. For the case:\n  wall: {{prestress: {}}}\n  start: {}",
@@ -474,8 +528,9 @@ void PrestressRun::steps() {
 
 }  // namespace
 
-void prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen) {
-  PrestressRun(comm, request, screen).steps();
+int prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen) {
+  const parallel::StopSignals signals;
+  return PrestressRun(comm, request, screen).steps();
 }
 
 }  // namespace tunica::stages

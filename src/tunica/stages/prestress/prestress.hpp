@@ -15,14 +15,15 @@ struct PrestressRequest {
   std::filesystem::path case_file;
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results in the folder may be replaced
-  bool keep_flow = false;                          ///< the steady flow in the folder is taken as it is
+  /// The steady flow in the folder is taken as it is. One that was interrupted goes on, and so does one whose last
+  /// state is damaged, from the state before or from the start, with a warning.
+  bool keep_flow = false;
   artifacts::ProgramVersion program;
 };
 
 /// Finds the prestress of the wall and writes into the folder of results:
 /// - flow.checkpoint, flow/: the steady flow between rigid walls, one step before its end and at its end;
-/// boundary.yaml,
-///   its conditions;
+///   flow_checkpoints/: on the way there, the last two; boundary.yaml, its conditions;
 /// - traction/: its traction on the wall;
 /// - fixed_point.csv, fixed_point.svg: how the fixed point converged, line by line;
 /// - wall.vtu: the prestress, for the key `wall.prestress` (prestress_file.hpp); wall/: stress in the imaged shape;
@@ -31,7 +32,8 @@ struct PrestressRequest {
 /// The wall has the loads that the case gives it, and where the case has flow, its traction.
 ///
 /// Throws InputError with all problems of case and meshes before anything is written; SolverError when flow or fixed
-/// point do not converge, with everything until then on disk. The same on all ranks. Collective.
-void prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen);
+/// point do not converge, with everything until then on disk. The same on all ranks. Returns the signal that stopped
+/// it, or 0. Collective.
+int prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen);
 
 }  // namespace tunica::stages

@@ -107,26 +107,40 @@ std::string conditions_text(const FaceConditions& conditions, const std::vector<
 }
 
 SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const case_file::SteadyFlow& flow,
-                                 const std::function<void(const SteadyRecord&)>& follow) {
+                                 const std::function<bool(const SteadyRecord&)>& follow) {
   SteadySteps steps;
   SteadyRecord& record = steps.last;
-  double dt = flow.step;
-  for (int step = 1; step <= flow.steps; ++step) {
+  double dt = state.step > 0 ? std::min(flow.step, 2 * state.dt) : flow.step;
+  do {
     steps.before_last = state;
     coupling::StepReport report;
     for (int halvings = 0; !(report = problem.advance(state, dt)).converged; ++halvings, dt *= 0.5)
       if (halvings == most_halvings)
         throw SolverError(
-            fmt::format("the steady flow failed in step {} from t = {:.6g} s with steps down to {:.3g} s: {}", step,
-                        state.time, dt, report.failure));
+            fmt::format("the steady flow failed in step {} from t = {:.6g} s with steps down to {:.3g} s: {}",
+                        state.step + 1, state.time, dt, report.failure));
     record = compare(problem.mesh(), steps.before_last, state);
     record.step = static_cast<int>(state.step);
     steps.before_last.dt = record.dt;
-    follow(record);
-    if (std::max(record.velocity_change, record.pressure_change) * flow.step <= flow.tolerance * dt) break;
+    record.last = std::max(record.velocity_change, record.pressure_change) * flow.step <= flow.tolerance * dt ||
+                  state.step >= flow.steps;
+    steps.stopped = !follow(record) && !record.last;
     dt = std::min(flow.step, 2 * dt);
-  }
+  } while (!record.last && !steps.stopped);
   return steps;
+}
+
+SteadyRecord repeat_last_step(coupling::Problem& problem, coupling::State& state) {
+  const coupling::State before = state;
+  const auto report = problem.advance(state, before.dt);
+  if (!report.converged)
+    throw SolverError(
+        fmt::format("the last step of the steady flow failed when it was taken again, from t = {:.6g} s "
+                    "with {:.3g} s: {}",
+                    before.time, before.dt, report.failure));
+  SteadyRecord record = compare(problem.mesh(), before, state);
+  record.step = static_cast<int>(state.step);
+  return record;
 }
 
 std::vector<double> forces_on_wall(const coupling::Problem& problem) {

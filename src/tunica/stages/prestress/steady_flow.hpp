@@ -29,17 +29,24 @@ struct SteadyRecord {
   double time = 0, dt = 0;                            ///< s
   double velocity_change = 0, pressure_change = 0;    ///< in the step, of the largest velocity and pressure
   double largest_velocity = 0, largest_pressure = 0;  ///< m/s, Pa
+  bool last = false;                                  ///< the flow is steady, or the steps are used up
 };
 
 struct SteadySteps {
   SteadyRecord last;
   coupling::State before_last;  ///< what the last step started from; its dt is that of the step to come
+  bool stopped = false;         ///< before its end
 };
 
-/// Steps `problem` from `state` until nothing changes or the steps are used up. A step that fails is halved; throws
-/// SolverError after six halvings. Collective.
+/// Steps `problem` from `state`, which may have some of the steps behind it, until nothing changes or the steps are
+/// used up; one at least. A step that fails is halved; throws SolverError after six halvings. Stops after a step for
+/// which `follow` says so, with the same result as without when it goes on from there. Collective.
 SteadySteps step_to_steady_state(coupling::Problem& problem, coupling::State& state, const case_file::SteadyFlow& flow,
-                                 const std::function<void(const SteadyRecord&)>& follow);
+                                 const std::function<bool(const SteadyRecord&)>& follow);
+
+/// The last step again, from a state whose dt is that of the step to come: for the forces, which belong to a step.
+/// Throws SolverError when it fails. Collective.
+SteadyRecord repeat_last_step(coupling::Problem& problem, coupling::State& state);
 
 /// Forces of the flow on the nodes of the vessel's inside [N], [local node][4], in the step that `problem` last
 /// accepted: the residual of the lumen elements, which is what acts on the wall in the coupled system, (5.3).

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tunica/artifacts/histories.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/csv_file.hpp"
@@ -53,6 +54,13 @@ std::string curve(const files::CsvColumns& table, const std::string& column, con
                          {.title = title, .x_label = table.headers[time], .y_label = table.headers[k], .width = 560}));
 }
 
+/// What a history lacks of its steps.
+std::string gaps(const files::CsvColumns& table) {
+  std::string text;
+  for (const auto& b : artifacts::breaks_of(table)) text += (text.empty() ? "" : "; ") + b.what;
+  return text.empty() ? text : missing(table.file.filename().string(), text);
+}
+
 std::string balance(const fs::path& folder) {
   const files::CsvColumns table = files::read_csv(folder / "balance.csv", remedy, files::Gaps::allowed);
   std::vector<std::vector<std::string>> rows;
@@ -67,7 +75,8 @@ std::string balance(const fs::path& folder) {
   largest("max velocity", "largest velocity");
   largest("relative mass residual", "largest mass residual, of the largest flow");
   largest("interface power residual", "largest residual of the power at the interface");
-  return drawing::page::table({"of all steps", ""}, rows) + curve(table, "max displacement", "Largest displacement");
+  return gaps(table) + drawing::page::table({"of all steps", ""}, rows) +
+         curve(table, "max displacement", "Largest displacement");
 }
 
 std::string times(const fs::path& folder) {
@@ -83,7 +92,8 @@ std::string times(const fs::path& folder) {
          fmt::format("{:.3g}", std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size())),
          fmt::format("{:.3g}", *std::max_element(values.begin(), values.end()))});
   }
-  return drawing::page::table({"of a step", "mean", "largest"}, rows) + curve(table, "total", "Seconds of each step") +
+  return gaps(table) + drawing::page::table({"of a step", "mean", "largest"}, rows) +
+         curve(table, "total", "Seconds of each step") +
          curve(table, "newton iterations", "Newton iterations of each step");
 }
 
@@ -107,7 +117,8 @@ std::string run_part(const Results& r) {
   const bool has_faces = fs::exists(folder / "faces.csv");
   if (has_faces && r.post.is_null()) {
     const files::CsvColumns faces = files::read_csv(folder / "faces.csv", remedy, files::Gaps::allowed);
-    text += curves(faces, "pressure", "Mean pressure at the openings") + curves(faces, "flow", "Flow at the openings");
+    text += gaps(faces) + curves(faces, "pressure", "Mean pressure at the openings") +
+            curves(faces, "flow", "Flow at the openings");
   }
   return text + "<h3>Time steps</h3>\n" + times(folder);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/config/units.hpp"
@@ -76,13 +77,19 @@ std::vector<Cycles::Opening> Cycles::measure(int cycle) const {
   for (std::size_t k = 0; k < ends.size(); ++k)
     if (within(k)) duration += sizes[k];
   if (duration < (1 - 1e-6) * period_) return {};
+  // A line may be lost in one of the tables, so lines go together by their step.
+  std::map<double, std::size_t> line_of;
+  for (std::size_t k = 0; k < faces.column("step").size(); ++k) line_of[faces.column("step")[k]] = k;
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    if (within(k) && !line_of.contains(steps.column("step")[k])) return {};
   const auto range = [&](const std::vector<double>& values) {
     Range r{.mean = 0, .high = -HUGE_VAL, .low = HUGE_VAL};
     for (std::size_t k = 0; k < ends.size(); ++k) {
       if (!within(k)) continue;
-      r.mean += values[k] * sizes[k] / duration;
-      r.high = std::max(r.high, values[k]);
-      r.low = std::min(r.low, values[k]);
+      const double value = values[line_of.at(steps.column("step")[k])];
+      r.mean += value * sizes[k] / duration;
+      r.high = std::max(r.high, value);
+      r.low = std::min(r.low, value);
     }
     return r;
   };

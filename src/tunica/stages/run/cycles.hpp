@@ -40,6 +40,10 @@ class Cycles {
   CycleChange compare(int cycle) const;
   /// The same, and adds it to the table; `step`: accepted steps so far.
   CycleChange append(int cycle, std::int64_t step);
+  /// Does the table that is continued hold the cycle that ended with this step?
+  bool has(std::int64_t step) const { return table_.last_step() == step; }
+  /// What was found wrong with the table that is continued.
+  const std::vector<std::string>& damage() const { return table_.damage(); }
 
  private:
   struct Range {

@@ -26,10 +26,12 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
+#include "tunica/parallel/shared_error.hpp"
 #include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/adaptive_steps.hpp"
 #include "tunica/stages/run/cycles.hpp"
 #include "tunica/wall/parameters.hpp"
+#include "tunica/stages/run/restart.hpp"
 
 namespace tunica::stages {
 
@@ -50,18 +52,25 @@ std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}
 class Run {
  public:
   Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen);
+  /// The run to its end, or to another end that leaves a state: histories, checkpoint, status.
   RunOutcome steps();
 
  private:
+  RunOutcome compute();
+  void end_failed(const std::string& message);
+  void end_alone(const std::string& message);
   fs::path checkpoint_folder() const { return folder_ / "checkpoints"; }
   bool is_static() const { return std::holds_alternative<case_file::StaticWall>(case_.analysis); }
   bool continued() const { return request_.restart || request_.restart_file; }
   std::int64_t last_step() const;
+  /// Of this call, which may be asked to stop earlier.
+  std::int64_t end_step() const { return std::min(last_step(), request_.until.value_or(last_step())); }
   artifacts::StepGrid make_grid(const artifacts::StepGrid::Position* position) const;
 
   void prepare_folder();
   void try_outputs() const;
   void distribute();
+  std::string command(const char* option) const;
   void restore();
   void start_from(const fs::path& file);
   void open_outputs();
@@ -81,8 +90,6 @@ class Run {
   void write_fields();
   void save();
   void record(const std::string& status, const std::string& message);
-  /// Throws SolverError with the message and what else went wrong when that cannot be recorded.
-  void record_failure(const std::string& message);
   /// Calls `write` and adds the step to what it throws.
   void on_disk(const std::function<void()>& write) const;
   [[noreturn]] void give_up(const StepReport& report);
@@ -101,6 +108,7 @@ class Run {
 
   std::uint64_t case_hash_ = 0, mesh_hash_ = 0;
   bool folder_has_results_ = false;
+  std::string manifest_damage_;  ///< rank 0: of the manifest of the run that is continued
   std::optional<parallel::Log> log_;
   distributed::DistributedMesh mesh_;
   std::optional<coupling::Problem> problem_;
@@ -116,6 +124,7 @@ class Run {
   fs::path last_checkpoint_;
   std::int64_t fields_step_ = -1;       ///< last step whose fields are on disk
   std::int64_t checkpoint_state_ = -1;  ///< accepted steps in the last checkpoint
+  bool state_is_whole_ = true;          ///< the state belongs to one instant, and the histories reach up to it
   std::optional<parallel::Progress> bar_;
 };
 
@@ -131,6 +140,7 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   parallel::broadcast(comm_, mesh_hash_);
   case_hash_ = parallel::on_root(comm_, [&] { return case_hash(input_); });
   parallel::broadcast(comm_, case_hash_);
+  if (!continued()) refuse_tables_that_end(comm_, case_, grid_, end_step());
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
@@ -177,6 +187,13 @@ void Run::prepare_folder() {
       return false;
     }
     const std::string where = folder_.string();
+    manifest_damage_ = results->damage;
+    if (!manifest_damage_.empty()) {
+      if (continued()) return true;  // the checkpoint tells its mesh
+      throw InputError(
+          where, fmt::format("holds results of a run, but their manifest.json {}", results->damage),
+          "go on with them by --restart, remove them by --overwrite, or choose another folder by --output");
+    }
     const bool same_case = results->case_hash == case_hash_, same_mesh = results->mesh_hash == mesh_hash_;
     if (!continued())
       throw InputError(where,
@@ -207,7 +224,9 @@ void Run::distribute() {
 // Fields and flows of the outlets, at time zero. A Windkessel that names no initial pressure starts from the pressure
 // that its face has there.
 void Run::start_from(const fs::path& file) {
-  const auto outlets = artifacts::read_start(file, mesh_, state_, mesh_hash_);
+  const auto outlets =
+      artifacts::read_start(file, mesh_, state_, mesh_hash_,
+                            "name another state in `start`, or find it anew: tunica prestress CASE --overwrite");
   for (auto& outlet : state_.outlets) {
     const auto found =
         std::find_if(outlets.begin(), outlets.end(), [&](const auto& o) { return o.face == outlet.face(); });
@@ -220,30 +239,32 @@ void Run::start_from(const fs::path& file) {
   log_->info(fmt::format("starting from {}", file.string()));
 }
 
+std::string Run::command(const char* option) const {
+  return fmt::format("tunica run {}{} {}", request_.case_file.string(),
+                     request_.directory ? " --output " + request_.directory->string() : "", option);
+}
+
 void Run::restore() {
   state_ = problem_->initial_state();
   if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
   if (case_.start && !continued()) start_from(*case_.start);
   if (!continued()) return;
-  std::string name = parallel::on_root(comm_, [&] {
-    if (request_.restart_file) return request_.restart_file->string();
-    const auto files = artifacts::list_checkpoints(checkpoint_folder());
-    if (files.empty())
-      throw InputError(checkpoint_folder().string(), "holds no checkpoint to restart from",
-                       "run without --restart, or name one by --restart FILE");
-    return files.back().string();
-  });
-  parallel::broadcast(comm_, name);
-  artifacts::Checkpoint checkpoint = artifacts::read_checkpoint(name, mesh_, state_, mesh_hash_);
+  const fs::path name = request_.restart_file
+                            ? *request_.restart_file
+                            : last_whole_checkpoint(comm_, checkpoint_folder(), command("--overwrite"), *log_);
+  artifacts::Checkpoint checkpoint = artifacts::read_checkpoint(
+      name, mesh_, state_, mesh_hash_,
+      fmt::format("restart from another checkpoint, such as the last one that is whole: {}", command("--restart")));
   state_ = std::move(checkpoint.state);
   grid_ = make_grid(&checkpoint.position);
+  refuse_tables_that_end(comm_, case_, grid_, end_step());
   if (case_.time && case_.time->cycles && checkpoint.position.nominal != case_.time->step)
     throw InputError(
         "time.step",
         fmt::format("is {:.9g} s, in the run to be continued {:.9g} s", case_.time->step, checkpoint.position.nominal),
         "keep the step of a run in cycles, or start anew");
   last_checkpoint_ = name;
-  log_->info(fmt::format("continuing from {} after {}, t = {}", name, plural(grid_.steps_done(), "step"),
+  log_->info(fmt::format("continuing from {} after {}, t = {}", name.string(), plural(grid_.steps_done(), "step"),
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
     log_->warning(
@@ -253,7 +274,8 @@ void Run::restore() {
 
 void Run::open_outputs() {
   const bool keep = continued() && folder_has_results_;
-  std::vector<std::string> lumen_faces;
+  std::vector<std::string> lumen_faces, regions;
+  for (const auto& region : mesh_.regions) regions.push_back(region.name);
   for (const auto& face : mesh_.faces)
     if (mesh_.regions[face.region].kind == mesh::RegionKind::lumen) lumen_faces.push_back(face.name);
   artifacts::ManifestHead head{.program = request_.program,
@@ -269,8 +291,16 @@ void Run::open_outputs() {
   for (const auto& r : input_.mesh.data.regions) head.regions.emplace_back(r.name, r.end_element - r.first_element);
   parallel::on_root(comm_, [&] {
     const auto from = keep ? std::optional(state_.step) : std::nullopt;
+    if (!manifest_damage_.empty())
+      log_->warning(fmt::format("{} {}: the list of the runs in this folder begins anew",
+                                (folder_ / "manifest.json").string(), manifest_damage_));
+    if (keep) tell_missing_fields(folder_, regions, grid_.time(), *log_);
     histories_.emplace(folder_, case_, lumen_faces, state_.outlets, from);
-    if (case_.time && case_.time->cycles) cycles_.emplace(folder_, case_, openings(case_, lumen_faces), from);
+    for (const auto& line : histories_->damage()) log_->warning(line);
+    if (case_.time && case_.time->cycles) {
+      cycles_.emplace(folder_, case_, openings(case_, lumen_faces), from);
+      for (const auto& line : cycles_->damage()) log_->warning(line);
+    }
     manifest_.emplace(folder_, head, keep);
     for (const auto& file : artifacts::list_checkpoints(checkpoint_folder()))  // of a future that is computed anew
       if (artifacts::step_of(file) > grid_.steps_done()) fs::remove(file);
@@ -301,6 +331,7 @@ StepReport Run::attempt() {
 
 void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   const double start = grid_.time();
+  state_is_whole_ = false;
   grid_.accept(wanted_level);
   if (is_static())
     ++state_.step;
@@ -312,6 +343,7 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
     history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
   history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
   on_disk([&] { parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); }); });
+  state_is_whole_ = true;
 
   auto& p = progress_;
   p.newton_iterations += std::ssize(report.iterations);
@@ -338,7 +370,9 @@ void Run::judge(const StepReport& report, const coupling::State& before, double 
   const double tolerance = case_.time->adaptive->tolerance;
   const int wanted = wanted_level(*case_.time, grid_.level(), error);
   if (wanted > grid_.level() && grid_.halve()) {
+    state_is_whole_ = false;
     state_ = before;
+    state_is_whole_ = true;
     ++progress_.rejected_steps;
     log_->info(fmt::format("step of {} from t = {} taken back: error {:.2e}, tolerance {:.2e}", time_text(dt),
                            time_text(grid_.time()), error.relative, tolerance));
@@ -370,8 +404,11 @@ bool Run::finish_cycle(bool anew) {
   const int cycle = static_cast<int>(grid_.steps_done() / case_.time->steps_per_cycle());
   CycleChange change;
   on_disk([&] {
-    change =
-        parallel::on_root(comm_, [&] { return anew ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle); });
+    change = parallel::on_root(comm_, [&] {
+      // A run may have ended after the step and before the line of its cycle.
+      const bool lacks_line = folder_has_results_ && !cycles_->has(state_.step);
+      return anew || lacks_line ? cycles_->append(cycle, state_.step) : cycles_->compare(cycle);
+    });
   });
   parallel::broadcast(comm_, change);
   const bool periodic = change.below(settings.tolerance), last = cycle == settings.most;
@@ -402,14 +439,6 @@ void Run::save() {
     auto files = artifacts::list_checkpoints(checkpoint_folder());
     for (std::size_t k = 0; k + kept_checkpoints < files.size(); ++k) fs::remove(files[k]);
   });
-}
-
-void Run::record_failure(const std::string& message) {
-  try {
-    record("failed", message);
-  } catch (const SolverError& error) {
-    throw SolverError(fmt::format("{}\n  and the manifest does not say so: {}", message, error.what()));
-  }
 }
 
 void Run::on_disk(const std::function<void()>& write) const {
@@ -448,8 +477,55 @@ void Run::give_up(const StepReport& report) {
                   worst.place[2], last_checkpoint_.string()));
 }
 
+// An error that all ranks throw alike. Once the state is on disk nothing of the run is lost; a disk that takes no more
+// is told beside the error, which stays the one that ended the run.
+void Run::end_failed(const std::string& message) {
+  const auto try_to = [&](const char* what, const auto& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      log_->warning(fmt::format("{}: {}", what, error.what()));
+    }
+  };
+  bar_.reset();
+  if (state_is_whole_) try_to("no checkpoint of the last step", [&] { save(); });
+  try_to("the manifest does not tell the end of the run", [&] { record("failed", message); });
+  log_->note_error(message);
+}
+
+// An error that the other ranks may not know of: no rank waits for another.
+void Run::end_alone(const std::string& message) {
+  if (parallel::size(comm_) == 1) return end_failed(message);
+  try {
+    artifacts::record_end(folder_, "failed", message);
+  } catch (const std::exception&) {
+    // The error that ends the run is told anyway.
+  }
+}
+
 RunOutcome Run::steps() {
-  const std::int64_t end = std::min(last_step(), request_.until.value_or(last_step()));
+  try {
+    return compute();
+  } catch (const InputError& error) {
+    end_failed(error.what());
+    throw;
+  } catch (const SolverError& error) {
+    end_failed(error.what());
+    throw;
+  } catch (const parallel::SharedError& error) {
+    end_failed(error.what());
+    throw;
+  } catch (const std::exception& error) {
+    end_alone(error.what());
+    throw;
+  } catch (...) {
+    end_alone("unknown error");
+    throw;
+  }
+}
+
+RunOutcome Run::compute() {
+  const std::int64_t end = end_step();
   RunOutcome outcome;
   bool periodic = at_cycle_end() && finish_cycle(false);
   if (periodic || grid_.steps_done() >= end) {
@@ -459,42 +535,32 @@ RunOutcome Run::steps() {
     record("completed", "");
     return {.signal = 0, .steps = grid_.steps_done()};
   }
-  const parallel::StopSignals signals;
-  try {
-    if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
-    double saved = MPI_Wtime();
-    bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
-    while (grid_.steps_done() < end && !periodic) {
-      const auto done = grid_.steps_done();
-      if (!take_step()) {
-        outcome.signal = parallel::stop_requested(comm_);
-        break;
-      }
-      if (grid_.steps_done() % case_.output.every == 0) write_fields();
-      const bool overdue = parallel::any(comm_, MPI_Wtime() - saved > longest_without_checkpoint);
-      if (grid_.steps_done() % case_.output.checkpoint_every == 0 || overdue) {
-        save();
-        saved = MPI_Wtime();
-      }
-      if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
-      bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
+  if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
+  double saved = MPI_Wtime();
+  bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
+  while (grid_.steps_done() < end && !periodic) {
+    const auto done = grid_.steps_done();
+    if (!take_step()) {
+      outcome.signal = parallel::stop_requested(comm_);
+      break;
     }
-    bar_.reset();
-    if (outcome.signal == 0) write_fields();
-    save();
-  } catch (const SolverError& error) {
-    bar_.reset();
-    record_failure(error.what());
-    throw;
+    if (grid_.steps_done() % case_.output.every == 0) write_fields();
+    const bool overdue = parallel::any(comm_, MPI_Wtime() - saved > longest_without_checkpoint);
+    if (grid_.steps_done() % case_.output.checkpoint_every == 0 || overdue) {
+      save();
+      saved = MPI_Wtime();
+    }
+    if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
+    bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
   }
+  bar_.reset();
+  if (outcome.signal == 0) write_fields();
+  save();
   outcome.steps = grid_.steps_done();
   record(outcome.signal == 0 ? "completed" : "stopped",
          outcome.signal == 0 ? (periodic ? "periodic" : "") : fmt::format("signal {}", outcome.signal));
   if (outcome.signal != 0) {
-    const std::string resume = request_.resume.empty()
-                                   ? fmt::format("tunica run {}{} --restart", request_.case_file.string(),
-                                                 request_.directory ? " --output " + request_.directory->string() : "")
-                                   : request_.resume;
+    const std::string resume = request_.resume.empty() ? command("--restart") : request_.resume;
     log_->warning(fmt::format("stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  {}",
                               sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
                               resume));
@@ -518,6 +584,7 @@ std::uint64_t case_hash(const ReadCase& c) {
 }
 
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
+  const parallel::StopSignals signals;  // one that comes while the run is prepared ends it before the first step
   return Run(c, request, comm, screen).steps();
 }
 

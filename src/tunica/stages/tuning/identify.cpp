@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "tunica/artifacts/histories.hpp"
+#include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/csv_file.hpp"
 
@@ -54,6 +56,14 @@ zerod::VesselPath path(const Measured& run, std::size_t outlet) {
   return resistance.resistance * dq >= inertance.inertance * dr ? resistance : inertance;
 }
 
+/// A table without holes, of as many steps as the other one.
+void require_every_step(const files::CsvColumns& table, const files::CsvColumns& other, const char* remedy) {
+  if (const auto breaks = artifacts::breaks_of(table); !breaks.empty())
+    throw InputError(table.file.string(), breaks.front().what, remedy);
+  if (table.column("step") != other.column("step"))
+    throw InputError(table.file.string(), fmt::format("has not the steps of {}", other.file.string()), remedy);
+}
+
 }  // namespace
 
 Measured read_measured(const std::filesystem::path& results, const case_file::Case& c, const std::string& inlet,
@@ -64,10 +74,11 @@ Measured read_measured(const std::filesystem::path& results, const case_file::Ca
                flow = config::unit_factor(u.flow, dimension::volume_flow),
                pressure = config::unit_factor(u.pressure, dimension::pressure),
                length = config::unit_factor(u.length, dimension::length);
-  const char* remedy = "it is a history of a tuning run: find the outlets anew with --overwrite";
+  const char* remedy = "it is a history of a tuning run: find the outlets anew, tunica tune CASE --overwrite";
   const files::CsvColumns faces = files::read_csv(results / "faces.csv", remedy),
                           balance = files::read_csv(results / "balance.csv", remedy),
                           of_steps = files::read_csv(results / "steps.csv", remedy);
+  for (const auto* table : {&faces, &balance, &of_steps}) require_every_step(*table, faces, remedy);
   const auto times = faces.column(fmt::format("time [{}]", u.time));
   const auto steps =
       static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](double t) { return t * time < until; }));

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/outlets_file.hpp"
+#include "tunica/artifacts/run_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/log.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "tunica/stages/tuning/tuning_report.hpp"
 
@@ -62,6 +63,7 @@ std::string find_inlet(const case_file::Case& c, const mesh::MeshData& mesh, std
 class Tuning {
  public:
   Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen);
+  /// To the end, or to another one, of which tuning.json tells.
   int steps();
 
  private:
@@ -87,12 +89,21 @@ class Tuning {
     bool done = false, restart = false, overwrite = false;
   };
   /// For rank 0.
-  Start start_of_run(const fs::path& results, const ReadCase& input) const;
+  Start start_of_run(const fs::path& results, const ReadCase& input);
+  /// Is what a completed run has measured still there?
+  bool has_measured(const fs::path& results, double duration);
   void look_at_probe();
   void look_at_cycle(int number, const Plan& plan);
   void tell(int number, const TuningCycle& cycle);
   void write_result(const fs::path& file, const TuningCycle& cycle, const char* status);
+  std::string command(const std::string& option) const {
+    return fmt::format("tunica tune {}{}{}{}", request_.case_file.string(),
+                       request_.directory ? " --output " + request_.directory->string() : "", option.empty() ? "" : " ",
+                       option);
+  }
   int finish();
+  int look_for_outlets();
+  void record(const char* status);
   [[noreturn]] void give_up();
 
   MPI_Comm comm_;
@@ -105,7 +116,8 @@ class Tuning {
   double period_ = 0;                   ///< s
   int steps_per_cycle_ = 0;
   int signal_ = 0;
-  files::FolderLock lock_;  ///< rank 0
+  bool report_is_damaged_ = false;  ///< rank 0: that of an earlier call
+  files::FolderLock lock_;          ///< rank 0
   std::optional<parallel::Log> log_;
   TuningReport report_;  ///< rank 0
 };
@@ -115,6 +127,9 @@ Tuning::Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen)
   read();
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder() / "tune.log", .screen = screen});
+  if (report_is_damaged_)
+    log_->warning(fmt::format("{} is cut off or altered; the runs in this folder tell whether they are of this case",
+                              (folder() / "tuning.json").string()));
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
   if (rigid() || case_.settings.start) return;
   log_->warning(
@@ -174,7 +189,8 @@ void Tuning::prepare_folder() {
     report_.case_hash = case_hash(case_);
     lock_ = files::FolderLock(folder());
     const auto earlier = find_tuning(folder());
-    if (earlier && *earlier != report_.case_hash && !request_.overwrite)
+    report_is_damaged_ = earlier && !earlier->case_hash;
+    if (earlier && earlier->case_hash.value_or(report_.case_hash) != report_.case_hash && !request_.overwrite)
       throw InputError(folder().string(), "holds the tuning of another case, or of this one before it was changed",
                        "replace it by --overwrite, or name another folder by --output");
     if (!earlier && !request_.overwrite && fs::exists(settings().file()))
@@ -242,28 +258,54 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   return run;
 }
 
-Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& input) const {
+bool Tuning::has_measured(const fs::path& results, double duration) {
+  try {
+    double sum = 0;
+    for (const double dt : read_measured(results, case_.settings, inlet_, period_).durations) sum += dt;
+    if (sum < (1 - 1e-6) * duration)
+      throw InputError(results.string(), fmt::format("its histories end after {:.6g} s of {:.6g} s", sum, duration),
+                       "");
+    return true;
+  } catch (const InputError& error) {
+    const auto& problem = error.problems().front();
+    log_->warning(fmt::format("{}: {}; the run is computed anew", problem.where, problem.what));
+    return false;
+  }
+}
+
+Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& input) {
   const auto earlier = artifacts::find_results(results);
   if (!earlier) return {};
+  if (!earlier->damage.empty()) {
+    log_->warning(fmt::format("{}: the manifest {}; the run is computed anew", results.string(), earlier->damage));
+    return {.done = false, .restart = false, .overwrite = true};
+  }
   if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != artifacts::mesh_hash(input.mesh.data)) {
     if (!request_.overwrite)
       throw InputError(results.string(), "holds a run with another mesh, inflow or prestress",
                        "replace it by --overwrite, or name another folder by --output");
     return {.done = false, .restart = false, .overwrite = true};
   }
-  if (earlier->status == "completed") return {.done = true, .restart = false, .overwrite = false};
-  const bool restart = !artifacts::list_checkpoints(results / "checkpoints").empty();
-  return {.done = false, .restart = restart, .overwrite = !restart};
+  if (earlier->status == "completed") {
+    const auto& time = *input.settings.time;
+    const bool whole = has_measured(results, static_cast<double>(time.steps) * time.step);
+    return {.done = whole, .restart = false, .overwrite = !whole};
+  }
+  const auto found = artifacts::find_continuation(results);
+  if (!found.possible)
+    for (const auto& line : found.warnings) log_->warning(line + "; the run is computed anew");
+  return {.done = false, .restart = found.possible, .overwrite = !found.possible};
 }
 
 bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
+  signal_ = parallel::stop_requested(comm_);
+  if (signal_ != 0) return false;
   const ReadCase input = run_input(name, plan, steps);
   RunRequest run;
   run.case_file = request_.case_file;
   run.directory = folder() / name;
   run.program = request_.program;
-  run.resume = fmt::format("tunica tune {}{}", request_.case_file.string(),
-                           request_.directory ? " --output " + request_.directory->string() : "");
+  run.resume = command("");
   Start start = parallel::on_root(comm_, [&] { return start_of_run(folder() / name, input); });
   parallel::broadcast(comm_, start);
   log_->info(fmt::format("{}: R_T = {:.5g} Pa s/mm^3, C_T = {:.5g} mm^3/Pa, {} steps{}", name,
@@ -354,16 +396,39 @@ void Tuning::give_up() {
     return fmt::format(
         "the outlets miss the targets after {} cycle{}: at best {}/{} mmHg (mean {}), asked are {}/{} mmHg; off by "
         "{:.3g} %, tolerance {:.3g} %\n  the best outlets are in {}; `tunica run` takes them from {}\n  try a larger "
-        "max_cycles or tolerance, and --overwrite",
+        "max_cycles or tolerance, and {}",
         cycles.size(), cycles.size() == 1 ? "" : "s", mmHg(p.systolic), mmHg(p.diastolic), mmHg(p.mean),
         mmHg(settings().systolic), mmHg(settings().diastolic), 100 * best->miss(settings()), 100 * settings().tolerance,
-        (folder() / "best.yaml").string(), settings().file().string());
+        (folder() / "best.yaml").string(), settings().file().string(), command("--overwrite"));
   });
   parallel::broadcast(comm_, message);
   throw SolverError(message);
 }
 
+// For rank 0, and for an end that has an error of its own to tell.
+void Tuning::record(const char* status) {
+  if (parallel::rank(comm_) != 0) return;
+  try {
+    report_.status = status;
+    report_.seconds = MPI_Wtime() - started_;
+    write_report(report_, case_.settings);
+  } catch (const std::exception& error) {
+    log_->warning(fmt::format("tuning.json does not tell the end of the tuning: {}", error.what()));
+  }
+}
+
 int Tuning::steps() {
+  try {
+    const int signal = look_for_outlets();
+    if (signal != 0) record("stopped");
+    return signal;
+  } catch (...) {
+    record(report_.status == "not converged" ? "not converged" : "failed");
+    throw;
+  }
+}
+
+int Tuning::look_for_outlets() {
   const double systolic = settings().systolic, diastolic = settings().diastolic;
   const zerod::Vessel none{0.0, std::vector<zerod::VesselPath>(settings().fractions.size())};
   if (!compute("probe", make_plan(none, systolic, diastolic),
@@ -395,6 +460,9 @@ int Tuning::steps() {
 
 }  // namespace
 
-int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) { return Tuning(comm, request, screen).steps(); }
+int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) {
+  const parallel::StopSignals signals;
+  return Tuning(comm, request, screen).steps();
+}
 
 }  // namespace tunica::stages

@@ -166,14 +166,13 @@ void write_report(const TuningReport& report, const case_file::Case& c) {
   plot_pressure(report, c, pressure);
 }
 
-std::optional<std::uint64_t> find_tuning(const fs::path& folder) {
+std::optional<EarlierTuning> find_tuning(const fs::path& folder) {
   std::ifstream in(folder / report_file);
   if (!in) return std::nullopt;
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.contains("case_hash") || !json["case_hash"].is_number_unsigned())
-    throw InputError((folder / report_file).string(), "cannot be read as the report of a tuning",
-                     "remove it, or name another folder by --output");
-  return json["case_hash"].get<std::uint64_t>();
+  if (!json.is_object() || !json.contains("case_hash") || !json["case_hash"].is_number_unsigned())
+    return EarlierTuning{};
+  return EarlierTuning{json["case_hash"].get<std::uint64_t>()};
 }
 
 }  // namespace tunica::stages

@@ -34,7 +34,7 @@ struct TuningReport {
   std::filesystem::path folder;
   artifacts::ProgramVersion program;
   std::uint64_t case_hash = 0;
-  std::string status = "running";      ///< or converged, not converged
+  std::string status = "running";      ///< or converged, not converged, stopped, failed
   std::optional<zerod::Vessel> probe;  ///< as the probe found it
   std::vector<TuningCycle> cycles;
   double seconds = 0;
@@ -43,8 +43,11 @@ struct TuningReport {
 /// Writes tuning.json, and with cycles tuning.csv, tuning.svg and pressure.svg. For one rank.
 void write_report(const TuningReport& report, const case_file::Case& c);
 
-/// Hash of the case in an earlier tuning.json; none when there is no such file. Throws InputError when it does not
-/// read.
-std::optional<std::uint64_t> find_tuning(const std::filesystem::path& folder);
+/// What an earlier tuning.json tells.
+struct EarlierTuning {
+  std::optional<std::uint64_t> case_hash;  ///< none when the file is cut off or altered
+};
+/// None when there is no such file.
+std::optional<EarlierTuning> find_tuning(const std::filesystem::path& folder);
 
 }  // namespace tunica::stages
