@@ -7,10 +7,10 @@
 
 #include "tunica/bc/waveform.hpp"
 #include "tunica/case/compared_law.hpp"
-#include "tunica/case/mesh_settings.hpp"
-#include "tunica/wall/parameters.hpp"
 #include "tunica/case/keys.hpp"
+#include "tunica/case/mesh_settings.hpp"
 #include "tunica/case/plausible.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::case_file {
 

@@ -8,16 +8,15 @@
 #include <limits>
 
 #include "tunica/base/error.hpp"
-#include "tunica/mesh_io/extent.hpp"
 #include "tunica/files/csv_file.hpp"
 #include "tunica/mesh/names.hpp"
+#include "tunica/mesh_io/extent.hpp"
 
 namespace tunica::geometry {
 
 namespace {
 
-constexpr std::size_t longest_line = 10'000;  ///< bytes, of a table of openings
-constexpr double planar_within = 0.2;         ///< of the radius of the opening
+constexpr double planar_within = 0.2;  ///< of the radius of the opening
 
 struct RimShape {
   Point centre;

@@ -9,13 +9,12 @@
 #include <vtkShortArray.h>
 #include <zlib.h>
 
-#include <vector>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <vector>
 
 #include "tunica/base/error.hpp"
 #include "tunica/files/atomic_file.hpp"

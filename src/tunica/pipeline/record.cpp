@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
-#include "tunica/files/atomic_file.hpp"
 #include "tunica/config/json_text.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/time_stamp.hpp"

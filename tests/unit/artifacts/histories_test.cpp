@@ -41,8 +41,7 @@ TEST(CsvTable, TellsLostDamagedAndRepeatedLines) {
     const auto file = folder.write("t.csv", "step,a\n" + lines);
     std::string text;
     const CsvTable table(file, {"a"}, last, kind);
-    for (const auto& line : table.damage())
-      text += line.substr(folder.path().string().size() + 1) + "\n";
+    for (const auto& line : table.damage()) text += line.substr(folder.path().string().size() + 1) + "\n";
     return text;
   };
   EXPECT_EQ(damage("1,1\n2,nan\n3,-inf\n", 3), "");

@@ -8,9 +8,9 @@
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/config/json_text.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/config/json_text.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"

@@ -30,8 +30,8 @@
 #include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/adaptive_steps.hpp"
 #include "tunica/stages/run/cycles.hpp"
-#include "tunica/wall/parameters.hpp"
 #include "tunica/stages/run/restart.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
 
