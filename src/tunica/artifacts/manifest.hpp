@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/artifacts/inputs.hpp"
 #include "tunica/coupling/problem.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 
@@ -23,7 +24,8 @@ struct ManifestHead {
   ProgramVersion program;
   std::filesystem::path case_file;
   std::string case_text;
-  std::uint64_t case_hash = 0, mesh_hash = 0;
+  Inputs inputs;  ///< of the case; its fingerprint is the hash of the case
+  std::uint64_t mesh_hash = 0;
   int ranks = 1;
   std::int64_t nodes = 0, elements = 0;
   std::vector<std::pair<std::string, std::int64_t>> regions;  ///< name, elements
@@ -63,9 +65,14 @@ struct EarlierResults {
   std::string case_file, status;
   std::int64_t last_step = 0;
   std::vector<std::string> regions;
+  std::vector<Inputs> inputs;  ///< of the runs that made them, as far as they are known
 };
 /// None when there is no manifest. Throws InputError when there is one that cannot be read. Not collective.
 std::optional<EarlierResults> find_results(const std::filesystem::path& folder);
+
+/// What has changed in a case since a checkpoint of the hash `then` was written into the folder of results beside it:
+/// names of settings and files, as far as the manifest there knows them. Not collective.
+std::string changed_since(const std::filesystem::path& checkpoint, std::uint64_t then, const Inputs& now);
 
 /// Removes the files that a run writes, and nothing else. Not collective.
 void remove_results(const std::filesystem::path& folder, const EarlierResults& results);

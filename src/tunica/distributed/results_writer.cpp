@@ -130,6 +130,13 @@ std::string file_stem(const std::string& region, std::int64_t step) { return fmt
 
 }  // namespace
 
+void check_region_names(const DistributedMesh& mesh) {
+  for (const auto& region : mesh.regions)
+    if (region.name.empty() || region.name.find_first_of("/&<>\"") != std::string::npos)
+      throw InputError("region \"" + region.name + "\"", "this name cannot be part of a file name",
+                       "rename the region");
+}
+
 struct ResultsWriter::Implementation {
   const DistributedMesh& mesh;
   ResultsOptions options;
@@ -153,10 +160,7 @@ struct ResultsWriter::Implementation {
   fs::path pvd(std::size_t region) const { return options.directory / (mesh.regions[region].name + ".pvd"); }
 
   void prepare_directory() {
-    for (const auto& region : mesh.regions)
-      if (region.name.empty() || region.name.find_first_of("/&<>\"") != std::string::npos)
-        throw InputError("region \"" + region.name + "\"", "this name cannot be part of a file name",
-                         "rename the region");
+    check_region_names(mesh);
     const auto probe = options.directory / "write_test";
     try {
       fs::create_directories(options.directory);

@@ -25,7 +25,9 @@ namespace tunica::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using artifacts::Change;
 using config::Document;
+using NamedFiles = std::vector<std::pair<std::string, fs::path>>;
 
 // --- case files of the stages ---------------------------------------------------------------------------------------
 
@@ -114,7 +116,7 @@ Document prestress_document(const Chain& chain, const fs::path& folder) {
 
 /// The prestress and the state that the case starts from, where the stage `prestress` has found them.
 void set_start(const Chain& chain, const fs::path& folder, Document& document) {
-  if (!chain.settings.prestress) return;
+  if (!chain.settings.finds_prestress()) return;
   const fs::path found = folder_of(chain, stage("prestress"));
   document.set("wall.prestress", path_to(found / "wall.vtu", folder));
   document.set("start", path_to(found / "start.checkpoint", folder));
@@ -155,13 +157,13 @@ Document post_document(const Chain& chain, const fs::path& folder) {
 }
 
 /// The fields and histories of a run are as they are since this file was written.
-std::vector<fs::path> run_manifest(const Chain& chain) { return {folder_of(chain, stage("run")) / "manifest.json"}; }
+NamedFiles run_manifest(const Chain& chain) { return {{"run", folder_of(chain, stage("run")) / "manifest.json"}}; }
 
-std::vector<fs::path> records(const Chain& chain) {
-  std::vector<fs::path> files;
+NamedFiles records(const Chain& chain) {
+  NamedFiles files;
   for (const auto& s : stages())
     if (s.wanted(chain.settings) && s.name != std::string("report"))
-      files.push_back(folder_of(chain, s) / "stage.json");
+      files.emplace_back(s.name, folder_of(chain, s) / "stage.json");
   return files;
 }
 
@@ -172,7 +174,8 @@ Document report_document(const Chain& chain, const fs::path& folder) {
   for (const auto& s : stages())
     if (s.wanted(chain.settings) && s.name != std::string("report"))
       document.set(fmt::format("stages.{}", s.name), path_to(folder_of(chain, s), folder));
-  document.set("pictures", chain.settings.report->pictures ? "true" : "false");
+  const bool pictures = chain.settings.report.value_or(case_file::ReportSettings{}).pictures;
+  document.set("pictures", pictures ? "true" : "false");
   document.set("length_unit", chain.settings.output.units.length);
   document.set("output", ".");
   return document;
@@ -298,6 +301,7 @@ const std::vector<Stage>& stages() {
       {.name = "mesh",
        .what = "mesh of lumen and wall",
        .file = "mesh.yaml",
+       .by_hand = "tunica mesh mesh.yaml --overwrite",
        .output = "mesh.output",
        .result = "meshes.yaml",
        .wanted = [](const case_file::Case& c) { return c.mesh.has_value(); },
@@ -312,6 +316,7 @@ const std::vector<Stage>& stages() {
       {.name = "fibres",
        .what = "material directions in the wall",
        .file = "fibres.yaml",
+       .by_hand = "tunica fibres fibres.yaml --overwrite",
        .output = "fibres.output",
        .result = "meshes.yaml",
        .wanted = [](const case_file::Case& c) { return c.fibres.has_value(); },
@@ -326,9 +331,10 @@ const std::vector<Stage>& stages() {
       {.name = "prestress",
        .what = "prestress of the imaged wall",
        .file = "case.yaml",
+       .by_hand = "tunica prestress case.yaml --overwrite",
        .output = "prestress.output",
        .result = "start.checkpoint",
-       .wanted = [](const case_file::Case& c) { return c.prestress.has_value(); },
+       .wanted = [](const case_file::Case& c) { return c.finds_prestress(); },
        .document = prestress_document,
        .description = description_of<case_file::Case>(),
        .settings = settings_of<case_file::Case>,
@@ -360,6 +366,7 @@ const std::vector<Stage>& stages() {
       {.name = "outlets",
        .what = "outlets for the pressures and flows that are asked for",
        .file = "case.yaml",
+       .by_hand = "tunica tune case.yaml",
        .output = "outlets.output",
        .result = "outlets.yaml",
        .wanted = [](const case_file::Case& c) { return c.outlets && !c.outlets->given_file; },
@@ -374,6 +381,7 @@ const std::vector<Stage>& stages() {
       {.name = "run",
        .what = "the case itself",
        .file = "case.yaml",
+       .by_hand = "tunica run case.yaml --restart",
        .output = "",
        .result = "manifest.json",
        .wanted = [](const case_file::Case&) { return true; },
@@ -389,6 +397,7 @@ const std::vector<Stage>& stages() {
       {.name = "post",
        .what = "figures of the cycle",
        .file = "case.yaml",
+       .by_hand = "tunica post case.yaml --overwrite",
        .output = "post.output",
        .result = "post.json",
        .wanted = [](const case_file::Case& c) { return c.post.has_value(); },
@@ -405,6 +414,7 @@ const std::vector<Stage>& stages() {
       {.name = "report",
        .what = "one page with what was done and found",
        .file = "report.yaml",
+       .by_hand = "tunica report report.yaml --overwrite",
        .output = "",
        .result = "report.html",
        .wanted = [](const case_file::Case& c) { return c.report.has_value(); },

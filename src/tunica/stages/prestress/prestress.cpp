@@ -192,7 +192,10 @@ void PrestressRun::read() {
     lumen_interface_ = case_.meshes.interface->lumen_faces;
     wall_interface_ = case_.meshes.interface->wall_faces;
   }
-  check_support(wall_case(case_, wall_faces_), wall_faces_, wall_interface_);
+  std::vector<bc::BoundaryFace> faces;
+  for (const auto& face : lumen_faces_) faces.push_back({face, bc::Field::lumen});
+  for (const auto& face : wall_faces_) faces.push_back({face, bc::Field::wall});
+  check_prestress(case_, faces);
 }
 
 void PrestressRun::prepare_folder() {
@@ -467,6 +470,14 @@ void PrestressRun::steps() {
 }
 
 }  // namespace
+
+void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces) {
+  const case_file::InterfaceSettings interface = c.meshes.interface.value_or(case_file::InterfaceSettings{});
+  std::vector<std::string> lumen, wall;
+  for (const auto& face : faces) (face.field == bc::Field::lumen ? lumen : wall).push_back(face.name);
+  if (c.solves_fluid()) steady_conditions(c.boundary, lumen, interface.lumen_faces, c.prestress->flow.value());
+  check_support(wall_case(c, wall), wall, interface.wall_faces);
+}
 
 void prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen) {
   PrestressRun(comm, request, screen).steps();

@@ -6,8 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/bc/check.hpp"
+#include "tunica/case/case.hpp"
 
 namespace tunica::stages {
 
@@ -18,6 +21,10 @@ struct PrestressRequest {
   bool keep_flow = false;                          ///< the steady flow in the folder is taken as it is
   artifacts::ProgramVersion program;
 };
+
+/// Looks at a case on these faces before anything is computed; `c.boundary` has no patterns any more. Throws InputError
+/// where the steady flow cannot have the conditions of the lumen, or statics not those of the wall.
+void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces);
 
 /// Finds the prestress of the wall and writes into the folder of results:
 /// - flow.checkpoint, flow/: the steady flow between rigid walls, one step before its end and at its end;

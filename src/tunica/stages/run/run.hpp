@@ -10,9 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/manifest.hpp"
-#include "tunica/case/case.hpp"
+#include "tunica/stages/run/posed_case.hpp"
 
 namespace tunica::stages {
 
@@ -42,19 +41,14 @@ struct RunOutcome {
 /// after all halvings, with everything until then on disk. The same on all ranks. Collective.
 RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen);
 
-/// A case that was read already, with the text that it was read from and (on rank 0) its mesh.
-struct ReadCase {
-  case_file::Case settings;
-  std::string text;
-  std::string outlets;  ///< text of the file of tuned outlets that `settings` has taken over; empty without
-  artifacts::CheckedMesh mesh;
-  std::vector<std::string> warnings;  ///< on rank 0: of values in the case that look like slips
+/// What check_posed() says of the case of `request`: the first lines of its log, then warnings. Throws what the run
+/// throws before its first step. Collective.
+struct RunCheck {
+  std::vector<std::string> report, warnings;  ///< on rank 0
 };
+RunCheck check_run(MPI_Comm comm, const std::filesystem::path& case_file);
 
-/// What tells results of this case from those of another: of its text, its outlets and its prestress. For rank 0.
-std::uint64_t case_hash(const ReadCase& c);
-
-/// The same for a case at hand; `request.case_file` serves messages only. Collective.
+/// As run(), for a case at hand; `request.case_file` serves messages only. Collective.
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen);
 
 }  // namespace tunica::stages

@@ -33,7 +33,7 @@ struct TuningCycle {
 struct TuningReport {
   std::filesystem::path folder;
   artifacts::ProgramVersion program;
-  std::uint64_t case_hash = 0;
+  artifacts::Inputs inputs;            ///< of the case
   std::string status = "running";      ///< or converged, not converged
   std::optional<zerod::Vessel> probe;  ///< as the probe found it
   std::vector<TuningCycle> cycles;
@@ -43,8 +43,8 @@ struct TuningReport {
 /// Writes tuning.json, and with cycles tuning.csv, tuning.svg and pressure.svg. For one rank.
 void write_report(const TuningReport& report, const case_file::Case& c);
 
-/// Hash of the case in an earlier tuning.json; none when there is no such file. Throws InputError when it does not
+/// Inputs of the case in an earlier tuning.json; none when there is no such file. Throws InputError when it does not
 /// read.
-std::optional<std::uint64_t> find_tuning(const std::filesystem::path& folder);
+std::optional<artifacts::Inputs> find_tuning(const std::filesystem::path& folder);
 
 }  // namespace tunica::stages
