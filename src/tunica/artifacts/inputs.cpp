@@ -11,6 +11,7 @@
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/named_files.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
 
 namespace tunica::artifacts {
 
@@ -83,34 +84,15 @@ void Fingerprints::add_file(Inputs& inputs, const std::string& key, const std::s
     add_file(inputs, key, fmt::format("{} > {}", key, named), named, file.parent_path() / named);
 }
 
-void Fingerprints::add_folder(Inputs& inputs, const std::string& key, const fs::path& folder, const fs::path& within,
-                              std::vector<fs::path>& open) {
-  const fs::path here = fs::canonical(folder / within);
-  if (std::find(open.begin(), open.end(), here) != open.end()) return;  // a link to a folder around it
-  open.push_back(here);
-  for (const auto& entry : fs::directory_iterator(here)) {
-    const fs::path inside = within / entry.path().filename();
-    if (inside.filename().string().starts_with('.')) continue;  // what file managers leave
-    std::error_code broken_link;
-    if (entry.is_directory(broken_link))
-      add_folder(inputs, key, folder, inside, open);
-    else if (entry.is_regular_file(broken_link))
-      add_file(inputs, key, fmt::format("{} > {}", key, inside.string()), inside.string(), folder / inside);
-  }
-  open.pop_back();
-}
-
+// All folders that keys name are meshes. What else lies there, be it the results of the case, does not matter.
 void Fingerprints::add(Inputs& inputs, const std::string& key, const fs::path& path) {
   std::error_code none;
-  const std::string name = path.filename().empty() ? path.parent_path().filename().string() : path.filename().string();
+  const std::string name = (path.filename().empty() ? path.parent_path() : path).filename().string();
   if (!fs::is_directory(path, none)) return add_file(inputs, key, key, name, path);
   inputs.files.emplace(key, InputFile{name, "folder"});
-  std::vector<fs::path> open;
-  try {
-    add_folder(inputs, key, path, {}, open);
-  } catch (const fs::filesystem_error& error) {
-    throw InputError(key, fmt::format("names a folder that cannot be read: {}", error.what()),
-                     "check the permissions of all that is in it");
+  for (const auto& file : mesh_io::simvascular_files(path)) {
+    const std::string inside = file.lexically_relative(path).string();
+    add_file(inputs, key, fmt::format("{} > {}", key, inside), inside, file);
   }
 }
 

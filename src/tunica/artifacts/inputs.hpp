@@ -33,17 +33,14 @@ struct Inputs {
 /// Contents of files; each is read once.
 class Fingerprints {
  public:
-  /// Adds the file or folder `path` as `key`: with everything in the folder, links followed, and all files that a file
-  /// names (files/named_files.hpp). A path without a file is added as missing.
+  /// Adds the file or the mesh folder `path` as `key`: with the files of the mesh, links followed, and all files that
+  /// a file names (files/named_files.hpp). A path without a file is added as missing.
   void add(Inputs& inputs, const std::string& key, const std::filesystem::path& path);
 
  private:
   std::string hash_of(const std::filesystem::path& file);
   void add_file(Inputs& inputs, const std::string& key, const std::string& label, const std::string& name,
                 const std::filesystem::path& file);
-  void add_folder(Inputs& inputs, const std::string& key, const std::filesystem::path& folder,
-                  const std::filesystem::path& within, std::vector<std::filesystem::path>& open);
-
   std::map<std::filesystem::path, std::string> known_;
 };
 

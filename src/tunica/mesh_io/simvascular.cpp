@@ -21,16 +21,24 @@ using Index = std::int64_t;
 
 constexpr int vtk_triangle = 5, vtk_tetrahedron = 10;
 
-std::vector<fs::path> surface_files(const fs::path& folder) {
+constexpr const char *volume_file = "mesh-complete.mesh.vtu", *surface_folder = "mesh-surfaces";
+
+/// Sorted; empty, with an error, where there is no such folder.
+std::vector<fs::path> find_surface_files(const fs::path& folder, std::error_code& error) {
   std::vector<fs::path> files;
-  const auto surfaces = folder / "mesh-surfaces";
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(surfaces, error))
+  for (const auto& entry : fs::directory_iterator(folder / surface_folder, error))
     if (entry.path().extension() == ".vtp") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> surface_files(const fs::path& folder) {
+  const auto surfaces = folder / surface_folder;
+  std::error_code error;
+  const auto files = find_surface_files(folder, error);
   if (files.empty())
     throw InputError(surfaces.string(), error ? "cannot be read: " + error.message() : "holds no .vtp file",
                      "export the mesh with its named faces (SimVascular: mesh-complete with mesh-surfaces)");
-  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -296,7 +304,7 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
     throw InputError(folder.string(), fmt::format("length unit of {} m, must be positive", options.metres_per_unit),
                      "declare the length unit of the mesh");
   const auto surfaces = surface_files(folder);
-  const auto volume_path = folder / "mesh-complete.mesh.vtu";
+  const auto volume_path = folder / volume_file;
   const auto where = volume_path.string();
   auto arrays = options.fields;
   if (options.regions) arrays.push_back(options.regions->array);
@@ -337,6 +345,13 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   data.node_fields = std::move(node_fields);
   mesh::orient_and_check_faces(data, boundary, folder.string());
   return mesh;
+}
+
+std::vector<fs::path> simvascular_files(const fs::path& folder) {
+  std::error_code none;
+  auto files = find_surface_files(folder, none);
+  if (fs::is_regular_file(folder / volume_file, none)) files.insert(files.begin(), folder / volume_file);
+  return files;
 }
 
 }  // namespace tunica::mesh_io

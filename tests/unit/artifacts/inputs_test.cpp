@@ -59,16 +59,17 @@ TEST_F(InputsTest, WhatAFileNames) {
   EXPECT_EQ(said("series.pvd", [&] { write("a_0.vtu", "2"); }), "a_0.vtu (key)");
 }
 
-TEST_F(InputsTest, EverythingInAFolderWithLinksFollowed) {
+TEST_F(InputsTest, AMeshFolderWithLinksFollowedAndNothingElseThatLiesThere) {
   write("mesh/mesh-complete.mesh.vtu", "1");
   write("store/lumen_inlet.vtp", "1");
   write("file.vtp", "1");
   fs::create_directory_symlink(path() / "store", path() / "mesh/mesh-surfaces");
-  fs::create_symlink(path() / "file.vtp", path() / "mesh/outlet.vtp");
-  fs::create_directory_symlink(path() / "mesh", path() / "mesh/itself");
+  fs::create_symlink(path() / "file.vtp", path() / "store/outlet.vtp");
   EXPECT_EQ(said("mesh", [&] { write("store/lumen_inlet.vtp", "2"); }), "mesh-surfaces/lumen_inlet.vtp (key)");
-  EXPECT_EQ(said("mesh", [&] { write("file.vtp", "2"); }), "outlet.vtp (key)");
+  EXPECT_EQ(said("mesh", [&] { write("file.vtp", "2"); }), "mesh-surfaces/outlet.vtp (key)");
   EXPECT_EQ(said("mesh", [&] { write("store/lumen_wall.vtp", "2"); }), "mesh-surfaces/lumen_wall.vtp (key)");
+  EXPECT_EQ(said("mesh", [&] { write("mesh/mesh-complete.mesh.vtu", "2"); }), "mesh-complete.mesh.vtu (key)");
+  EXPECT_EQ(said("mesh", [&] { write("mesh/results/faces.csv", "2"); }), "");
   const Inputs before = of("mesh");
   fs::rename(path() / "mesh", path() / "moved");
   EXPECT_EQ(before, of("moved"));
