@@ -148,6 +148,13 @@ std::vector<bc::BoundaryFace> faces_of(const mesh::MeshData& data) {
   return faces;
 }
 
+std::vector<std::string> wall_regions(const mesh::MeshData& data) {
+  std::vector<std::string> names;
+  for (const auto& region : data.regions)
+    if (region.kind == RegionKind::wall) names.push_back(region.name);
+  return names;
+}
+
 std::vector<Problem> check_faces(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces) {
   std::vector<Problem> problems;
   auto boundary = boundary_case(c, faces);

@@ -111,8 +111,10 @@ Names names_of(const std::vector<bc::BoundaryFace>& faces) {
 
 // --- what the stages ask --------------------------------------------------------------------------------------------
 
+Names regions_to_come() { return {meshing::wall_region_names.begin(), meshing::wall_region_names.end()}; }
+
 void check_region_names(const case_file::Case& c, Problems& problems) {
-  const Names known(meshing::wall_region_names.begin(), meshing::wall_region_names.end());
+  const Names known = regions_to_come();
   std::set<std::pair<std::string, std::string>> named;
   const auto add = [&](const std::string& key, const auto& regions) {
     for (const auto& [name, region] : regions) named.emplace(key, name);
@@ -169,8 +171,9 @@ case_file::Case with_named_faces(case_file::Case c, Names faces) {
 }
 
 /// What prestress and outlets ask of the faces.
-void check_stage_faces(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces, Problems& problems) {
-  if (c.finds_prestress()) collect(problems, "", [&] { stages::check_prestress(c, faces); });
+void check_stage_faces(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces, const Names& wall_regions,
+                       Problems& problems) {
+  if (c.finds_prestress()) collect(problems, "", [&] { stages::check_prestress(c, faces, wall_regions); });
   if (c.outlets && !c.outlets->given_file) collect(problems, "", [&] { stages::tuning_basis(c, faces); });
 }
 
@@ -188,7 +191,7 @@ void check_faces_to_come(const case_file::Case& chain_case, Problems& problems) 
   const auto wrong = artifacts::check_faces(c, faces);
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   if (c.fibres) check_fibre_faces(*c.fibres, names_of(faces), problems);
-  if (wrong.empty()) check_stage_faces(with_named_faces(c, names_of(faces)), faces, problems);
+  if (wrong.empty()) check_stage_faces(with_named_faces(c, names_of(faces)), faces, regions_to_come(), problems);
 }
 
 void check_sections(const case_file::Case& c, Problems& problems) {
@@ -282,7 +285,7 @@ std::vector<std::string> check_on_meshes(const Chain& chain) {
   read.settings = with_named_faces(read.settings, names_of(faces));
   Problems problems;
   check_fibres_on(chain, read.mesh.data, problems);
-  check_stage_faces(read.settings, faces, problems);
+  check_stage_faces(read.settings, faces, artifacts::wall_regions(read.mesh.data), problems);
   if (chain.settings.post)
     collect(problems, "", [&] { analysis::check_ends(describe(read.settings), *chain.settings.post, read.mesh.data); });
   collect(problems, "", [&] {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tunica/artifacts/manifest.hpp"
@@ -22,9 +23,11 @@ struct PrestressRequest {
   artifacts::ProgramVersion program;
 };
 
-/// Looks at a case on these faces before anything is computed; `c.boundary` has no patterns any more. Throws InputError
-/// where the steady flow cannot have the conditions of the lumen, or statics not those of the wall.
-void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces);
+/// Looks at a case on these faces and regions of the wall before anything is computed; `c.boundary` has no patterns any
+/// more. Throws InputError where the steady flow cannot have the conditions of the lumen, or statics not those of the
+/// wall, and for regions that are not there.
+void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces,
+                     const std::vector<std::string>& wall_regions);
 
 /// Finds the prestress of the wall and writes into the folder of results:
 /// - flow.checkpoint, flow/: the steady flow between rigid walls, one step before its end and at its end;
