@@ -139,12 +139,16 @@ class ChainRun {
     count_ = request_.until ? place_of(wanted, *request_.until, "--until") + 1 : wanted.size();
     from_ = first_anew(request_, wanted);
     for (const auto* stage : wanted) add(*stage);
-    // What the stages cannot do is told before the first one, where that costs less than the first one.
-    for (std::size_t k = 0; k < count_ && wanted[k]->name != std::string("run"); ++k)
+    // What a stage would refuse is told before any is done. Figures and page look at what they need themselves.
+    for (std::size_t k = 0; k < count_ && comes_before_results(*wanted[k]); ++k)
       if (!plan(chain_, *wanted[k], k >= from_).fresh) {
         check_on_meshes(chain_);
         break;
       }
+  }
+
+  static bool comes_before_results(const Stage& stage) {
+    return stage.name != std::string("post") && stage.name != std::string("report");
   }
 
   /// One stage, whether the case has its section or not.
@@ -158,6 +162,10 @@ class ChainRun {
       if (stage.wanted(chain_.settings) && !fs::exists(result))
         throw InputError(result.string(), fmt::format("is missing: the stage {} comes before {}", stage.name, name),
                          fmt::format("do it first: tunica run {} --until {}", request_.case_file.string(), stage.name));
+      if (!stage.wanted(chain_.settings)) continue;
+      if (const Plan before = plan(chain_, stage, false); !before.fresh)
+        say(fmt::format("warning: what the stage {} has left does not belong to the case as it is now: {}", stage.name,
+                        before.reason));
     }
   }
 
