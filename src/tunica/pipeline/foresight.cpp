@@ -16,6 +16,7 @@
 #include "tunica/meshing/vessel_roles.hpp"
 #include "tunica/meshing/wall_regions.hpp"
 #include "tunica/stages/fibres/fibres.hpp"
+#include "tunica/stages/post/post.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/run/posed_case.hpp"
 #include "tunica/stages/tuning/tune.hpp"
@@ -146,9 +147,12 @@ void check_fibre_faces(const case_file::FibreSettings& fibres, const Names& face
   look_up("fibres.outer", fibres.outer);
 }
 
-/// Faces that `post` will ask for, while nothing is computed yet. Outlets to be tuned have their conditions already.
+/// Fields and faces that `post` will ask for, while nothing is computed yet. Outlets to be tuned have their conditions
+/// already.
 void check_post(const case_file::Case& c, Problems& problems) {
-  if (!c.post || !c.fluid) return;
+  if (!c.post) return;
+  collect(problems, "", [&] { stages::post::check_post(c); });
+  if (!c.fluid) return;
   Names known;
   for (const auto& [face, condition] : c.boundary) known.push_back(face);
   const auto look_up = [&](const char* key, const std::string& face) {
@@ -220,12 +224,13 @@ void check_results_named(const case_file::Case& c, Problems& problems) {
     collect(problems, "", [&] { artifacts::parse_outlets(config::read_text(file), file, *c.outlets); });
 }
 
-/// The laws of `compare` in the place of those of the case: do they read there?
+/// The laws of `compare` in the place of those of the case: do they read there, and can figures be made?
 void check_compared_laws(const Chain& chain, Problems& problems) {
+  const config::Origin origin{.name = chain.file.string(), .folder = chain.file.parent_path()};
   for (const auto& [name, law] : chain.settings.compare)
     collect(problems, fmt::format("compare.{}: ", name), [&, &n = name] {
-      config::parse_document(case_file::Case::schema(), with_law(chain.document, n),
-                             {.name = chain.file.string(), .folder = chain.file.parent_path()});
+      stages::post::check_post(
+          config::parse_document(case_file::Case::schema(), with_law(chain.document, n), origin).value);
     });
 }
 
@@ -242,6 +247,14 @@ case_file::Case posable_case(const Chain& chain) {
   for (const auto& stage : stages())
     if (stage.name == std::string("run")) c.output.directory = folder_of(chain, stage);
   return c;
+}
+
+void check_compared_regions(const Chain& chain, const Names& regions, Problems& problems) {
+  for (const auto& [name, law] : chain.settings.compare)
+    for (const auto& [region, material] : law.regions)
+      if (std::find(regions.begin(), regions.end(), region) == regions.end())
+        problems.push_back({fmt::format("compare.{}.regions.{}", name, region),
+                            "the mesh has no wall region of this name", "use one of: " + mesh::list_names(regions)});
 }
 
 void check_fibres_on(const Chain& chain, const mesh::MeshData& data, Problems& problems) {
@@ -285,7 +298,9 @@ std::vector<std::string> check_on_meshes(const Chain& chain) {
   read.settings = with_named_faces(read.settings, names_of(faces));
   Problems problems;
   check_fibres_on(chain, read.mesh.data, problems);
-  check_stage_faces(read.settings, faces, artifacts::wall_regions(read.mesh.data), problems);
+  const auto regions = artifacts::wall_regions(read.mesh.data);
+  check_compared_regions(chain, regions, problems);
+  check_stage_faces(read.settings, faces, regions, problems);
   if (chain.settings.post)
     collect(problems, "", [&] { analysis::check_ends(describe(read.settings), *chain.settings.post, read.mesh.data); });
   collect(problems, "", [&] {

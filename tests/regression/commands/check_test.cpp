@@ -94,6 +94,9 @@ TEST_F(Check, FindsWhatAnyStageRefusesBeforeTheFirstOne) {
            Flaw{"inlet: [wall_inlet", "inlet: [wall_inflow", "fibres.inlet: the mesh has no face 'wall_inflow'"},
            Flaw{", inflow: 20 ml/s", "", "prestress.flow.inflow: is missing"},
            Flaw{"post: {}", "post: {end: lumen_femoral}", "lumen_femoral"},
+           Flaw{"post: {}", "post: {period: 0.8 s}", "do not cover the window"},
+           Flaw{"post: {}", "post: {lumens: {true_lumen: [x], false_lumen: [y]}}", "post.lumens.true_lumen"},
+           Flaw{"steps: 20}}", "steps: 20}, exclude: [flap]}", "prestress.exclude: the mesh has no wall region flap"},
        })
     expect_refused(chain, flaw);
   const std::string tuned = chain + "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {lumen_outlet: 1}}\n";
