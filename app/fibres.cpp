@@ -4,23 +4,34 @@
 #include <mpi.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "commands.hpp"
 #include "file_command.hpp"
 #include "session.hpp"
-#include "tunica/parallel/message.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/pipeline/chain.hpp"
+#include "version.hpp"
 
 namespace tunica::app {
 namespace {
 
-void fibres(const stages::fibres::FibresRequest& request) {
+void fibres(stages::fibres::FibresRequest request) {
   const bool speaks = parallel::rank(MPI_COMM_WORLD) == 0;
   const auto say = [speaks](const std::string& line) {
     if (!speaks) return;
     std::printf("%s\n", line.c_str());
     std::fflush(stdout);
   };
+  std::optional<pipeline::OwnRecord> record;  // of rank 0
+  parallel::on_root(MPI_COMM_WORLD, [&] {
+    const auto output = request.output.value_or(case_file::read_fibres_case(request.file).value.output);
+    record.emplace("fibres", request.file, output, parallel::size(MPI_COMM_WORLD),
+                   artifacts::ProgramVersion{version(), commit()});
+  });
+  request.before_work = [&] { record->begin(); };
   const auto report = stages::fibres::fibres_to_files(request, MPI_COMM_WORLD, say);
+  if (record) record->done();
   say("\n" + report);
 }
 

@@ -3,7 +3,9 @@
 
 #include "commands.hpp"
 #include "file_command.hpp"
+#include "tunica/pipeline/chain.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
+#include "version.hpp"
 
 namespace tunica::app {
 namespace {
@@ -16,7 +18,9 @@ void mesh(const FileRequest& request) {
     std::printf("%s\n", line.c_str());
     std::fflush(stdout);
   };
-  const auto report = stages::mesh_to_files(parsed.value, request.overwrite, say);
+  pipeline::OwnRecord record("mesh", request.file, parsed.value.output, 1, {version(), commit()});
+  const auto report = stages::mesh_to_files(parsed.value, request.overwrite, say, [&] { record.begin(); });
+  record.done();
   std::printf(
       "\n%s\nwritten to %s: lumen/, wall/, meshes.yaml (the section `meshes` of a case file), report.json, "
       "report.html\n",

@@ -1,13 +1,35 @@
 // tunica post: figures of a cycle from the results of a run.
 #include "tunica/stages/post/post.hpp"
 
+#include <mpi.h>
+
+#include <cstdio>
 #include <memory>
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/pipeline/chain.hpp"
 #include "version.hpp"
 
 namespace tunica::app {
+
+namespace {
+
+/// For a case with stages, the stage `post` alone on what the others have left.
+int post(const stages::post::PostRequest& request) {
+  const bool elsewhere = request.results || request.output;
+  if (!elsewhere && pipeline::is_chain(request.case_file, MPI_COMM_WORLD)) {
+    pipeline::ChainRequest chain{.case_file = request.case_file};
+    chain.only = "post";
+    chain.overwrite = request.overwrite;
+    chain.program = request.program;
+    return pipeline::run_chain(chain, MPI_COMM_WORLD, stdout);
+  }
+  stages::post::post_results(MPI_COMM_WORLD, request, stdout);
+  return 0;
+}
+
+}  // namespace
 
 void add_post(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
@@ -17,7 +39,9 @@ void add_post(CLI::App& app) {
       "  tunica post case.yaml\n"
       "  mpirun -n 4 tunica post case.yaml --overwrite       fields are dealt out to the ranks\n"
       "  tunica post case.yaml --results trial --output trial/figures\n"
-      "The section `post` of the case says which cycle and what of it:\n"
+      "Of a case with stages it takes what they have left in its folder of results. The section `post` of the case "
+      "says\n"
+      "which cycle and what of it:\n"
       "  post: {period: 0.78 s, spacing: 5 mm}\n"
       "Results: post.json, tables (.csv), plots (.svg), fields for ParaView (.vtp, .vtu), post.log.");
   const auto request = std::make_shared<stages::post::PostRequest>();
@@ -32,8 +56,7 @@ void add_post(CLI::App& app) {
     if (from->count() > 0) request->results = *results;
     if (to->count() > 0) request->output = *output;
     request->program = {version(), commit()};
-    throw CLI::RuntimeError(
-        in_session([&] { return stages::post::post_results(MPI_COMM_WORLD, *request, stdout), 0; }));
+    throw CLI::RuntimeError(in_session([&] { return post(*request); }));
   });
 }
 

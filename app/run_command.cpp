@@ -45,7 +45,7 @@ int run_stages(const Options& o) {
 }
 
 int run_alone(Options& o) {
-  const char* remedy = "leave it out; it is for a case with one of the sections `mesh`, `fibres`, `report`";
+  const char* remedy = "leave it out; it is for a case with sections of other stages";
   refuse(!o.from.empty(), "--from", "is given, but the case has one stage only", remedy);
   refuse(o.dry_run, "--dry-run", "is given, but the case has one stage only", remedy);
   if (!o.until.empty()) {
@@ -72,9 +72,9 @@ void add_run(CLI::App& app) {
       "  mpirun -n 8 tunica run case.yaml --restart          from the last checkpoint, on any number of ranks\n"
       "  tunica run case.yaml --restart results/checkpoints/step_00000200.checkpoint\n"
       "  tunica run case.yaml --output trial --until 10      ten steps, into the folder `trial`\n"
-      "A case with one of the sections mesh, fibres, report is a chain of stages: mesh, fibres, prestress, run, "
-      "report,\neach in a folder of its own. A stage whose inputs are unchanged is reused, an interrupted one "
-      "continues:\n"
+      "Every section of the case is done. One with the sections mesh, fibres, prestress, outlets, post, report is a\n"
+      "chain of stages, each in a folder of its own; the laws of `compare` come last. A stage whose inputs are "
+      "unchanged\nis reused, an interrupted one continues:\n"
       "  tunica run case.yaml --dry-run                      what would be done, and why\n"
       "  tunica run case.yaml --until prestress              no further than that stage\n"
       "  tunica run case.yaml --from fibres                  that stage and all after it anew\n"

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/stages/run/run.hpp"
 #include "version.hpp"
 
 namespace tunica::app {
@@ -33,6 +34,7 @@ void add_tune(CLI::App& app) {
     request->case_file = *case_file;
     if (given->count() > 0) request->directory = *directory;
     request->program = {version(), commit()};
+    request->run_case = stages::run_case;
     throw CLI::RuntimeError(in_session([&] {
       const int signal = stages::tune(MPI_COMM_WORLD, *request, stdout);
       return signal == 0 ? 0 : 128 + signal;

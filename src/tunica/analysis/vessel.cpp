@@ -203,6 +203,13 @@ std::string inlet_name(const RunDescription& run, const PostSettings& settings) 
   return inflows.size() == 1 ? inflows[0] : "lumen_inlet";
 }
 
+void check_ends(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data) {
+  Vessel vessel;
+  if (!run.fluid) return;
+  sort_faces(run, data, vessel);
+  find_ends(run, settings, data, vessel);
+}
+
 Vessel make_vessel(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm) {
   Vessel vessel;
   if (!run.fluid) {

@@ -61,6 +61,9 @@ struct Vessel {
 /// Face where the blood enters the aorta: that of the settings, else the only one with a flow, else lumen_inlet.
 std::string inlet_name(const RunDescription& run, const PostSettings& settings);
 
+/// Throws InputError for openings and regions of the settings that the mesh does not have. Not collective.
+void check_ends(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data);
+
 /// `data`: the same on all ranks. Throws InputError for faces and regions that the mesh does not have. Collective.
 Vessel make_vessel(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm);
 

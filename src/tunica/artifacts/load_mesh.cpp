@@ -101,14 +101,6 @@ bc::BoundaryCase boundary_case(const case_file::Case& c, const std::vector<bc::B
   return boundary;
 }
 
-std::vector<bc::BoundaryFace> faces_of(const mesh::MeshData& data) {
-  std::vector<bc::BoundaryFace> faces;
-  for (const auto& face : data.faces)
-    faces.push_back(
-        {face.name, data.regions[face.region].kind == RegionKind::lumen ? bc::Field::lumen : bc::Field::wall});
-  return faces;
-}
-
 /// Names of the faces that may have a condition.
 std::vector<std::string> free_faces(const case_file::MeshSettings& meshes, std::vector<std::string> names) {
   for (const auto& [lumen, wall] : case_file::interface_pairs(meshes))
@@ -152,6 +144,21 @@ CheckedMesh load_meshes(const case_file::MeshSettings& meshes, const std::vector
   return mesh;
 }
 
+std::vector<bc::BoundaryFace> faces_of(const mesh::MeshData& data) {
+  std::vector<bc::BoundaryFace> faces;
+  for (const auto& face : data.faces)
+    faces.push_back(
+        {face.name, data.regions[face.region].kind == RegionKind::lumen ? bc::Field::lumen : bc::Field::wall});
+  return faces;
+}
+
+std::vector<std::string> wall_regions(const mesh::MeshData& data) {
+  std::vector<std::string> names;
+  for (const auto& region : data.regions)
+    if (region.kind == RegionKind::wall) names.push_back(region.name);
+  return names;
+}
+
 std::vector<Problem> check_faces(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces) {
   std::vector<Problem> problems;
   auto boundary = boundary_case(c, faces);
@@ -181,7 +188,11 @@ CheckedMesh load_mesh(const case_file::Case& c) {
       problems);
   const auto wrong = check_faces(c, faces_of(mesh.data));
   problems.insert(problems.end(), wrong.begin(), wrong.end());
-  if (c.wall && c.wall->prestress) collect(problems, [&] { read_prestress(*c.wall->prestress, mesh.data); });
+  // The wall's nodes of the interface were moved onto the lumen's, a prestress of the wall alone knows them where they
+  // were.
+  const double moved = c.meshes.interface ? c.meshes.interface->tolerance : 0.0;
+  if (c.wall && c.wall->prestress)
+    collect(problems, [&] { read_prestress(*c.wall->prestress, mesh.data, std::max(0.01, 2 * moved)); });
   if (!problems.empty()) throw InputError(std::move(problems));
   // A mesh in the wrong unit makes every flow through it unusual: one warning is enough.
   if (!mesh::implausible_size(mesh.data, {}))

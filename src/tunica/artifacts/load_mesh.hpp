@@ -27,6 +27,11 @@ struct CheckedMesh {
 /// collective: for one rank.
 CheckedMesh load_mesh(const case_file::Case& c);
 
+/// The named faces of a mesh.
+std::vector<bc::BoundaryFace> faces_of(const mesh::MeshData& data);
+/// Names of the regions of the wall.
+std::vector<std::string> wall_regions(const mesh::MeshData& data);
+
 /// All that is wrong with the conditions of a case on faces that are known. Patterns such as `wall_*` are looked up.
 std::vector<Problem> check_faces(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces);
 

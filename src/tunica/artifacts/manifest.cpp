@@ -103,6 +103,7 @@ void Manifest::write(const ManifestProgress& p) {
                   {"ended", running ? "" : files::time_stamp()},
                   {"status", p.status},
                   {"message", p.message},
+                  {"inputs", to_json(head_.inputs)},
                   {"ranks", head_.ranks},
                   {"first_step", head_.first_step},
                   {"last_step", p.last_step},
@@ -119,19 +120,21 @@ void Manifest::write(const ManifestProgress& p) {
                     {"linear", p.timings.linear},
                     {"mesh_motion", p.timings.mesh}}},
                   {"peak_memory [MB]", p.peak_memory / 1e6}});
-  const ordered_json manifest = {
-      {"tunica",
-       {{"version", head_.program.version},
-        {"commit", head_.program.commit},
-        {"instruction_set", assembly::name(assembly::choose_isa())}}},
-      {"libraries", libraries()},
-      {"case", {{"file", head_.case_file.string()}, {"hash", files::hex(head_.case_hash)}, {"text", head_.case_text}}},
-      {"mesh",
-       {{"hash", files::hex(head_.mesh_hash)},
-        {"nodes", head_.nodes},
-        {"elements", head_.elements},
-        {"regions", regions}}},
-      {"runs", runs}};
+  const ordered_json manifest = {{"tunica",
+                                  {{"version", head_.program.version},
+                                   {"commit", head_.program.commit},
+                                   {"instruction_set", assembly::name(assembly::choose_isa())}}},
+                                 {"libraries", libraries()},
+                                 {"case",
+                                  {{"file", head_.case_file.string()},
+                                   {"hash", files::hex(head_.inputs.fingerprint())},
+                                   {"text", head_.case_text}}},
+                                 {"mesh",
+                                  {{"hash", files::hex(head_.mesh_hash)},
+                                   {"nodes", head_.nodes},
+                                   {"elements", head_.elements},
+                                   {"regions", regions}}},
+                                 {"runs", runs}};
   files::write_atomically(file_, config::json_text(manifest));
 }
 
@@ -157,6 +160,8 @@ std::optional<EarlierResults> find_results(const fs::path& folder) {
     results.status = json.at("runs").back().at("status");
     results.last_step = json.at("runs").back().at("last_step");
     for (const auto& region : json.at("mesh").at("regions")) results.regions.push_back(region_name(region));
+    for (const auto& run : json.at("runs"))
+      if (run.contains("inputs")) results.inputs.push_back(inputs_from_json(run.at("inputs")));
     return results;
   } catch (const std::exception&) {
     not_ours(file);
@@ -173,6 +178,15 @@ void record_end(const fs::path& folder, const std::string& status, const std::st
   run["message"] = message;
   run["ended"] = files::time_stamp();
   files::write_atomically(file, json.dump(2) + "\n");
+}
+
+std::string changed_since(const fs::path& checkpoint, std::uint64_t then, const Inputs& now) {
+  const std::string unknown = "the case or a file that it names";
+  const auto results = find_results(checkpoint.parent_path().parent_path());
+  if (!results) return unknown;
+  const auto known = std::find_if(results->inputs.begin(), results->inputs.end(),
+                                  [&](const Inputs& inputs) { return inputs.fingerprint() == then; });
+  return known == results->inputs.end() ? unknown : text_of(difference(*known, now));
 }
 
 void remove_results(const fs::path& folder, const EarlierResults& results) {

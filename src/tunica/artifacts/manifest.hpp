@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/artifacts/inputs.hpp"
 #include "tunica/coupling/problem.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 
@@ -23,7 +24,8 @@ struct ManifestHead {
   ProgramVersion program;
   std::filesystem::path case_file;
   std::string case_text;
-  std::uint64_t case_hash = 0, mesh_hash = 0;
+  Inputs inputs;  ///< of the case; its fingerprint is the hash of the case
+  std::uint64_t mesh_hash = 0;
   int ranks = 1;
   std::int64_t nodes = 0, elements = 0;
   std::vector<std::pair<std::string, std::int64_t>> regions;  ///< name, elements
@@ -64,6 +66,7 @@ struct EarlierResults {
   std::string case_file, status;
   std::int64_t last_step = 0;
   std::vector<std::string> regions;
+  std::vector<Inputs> inputs;  ///< of the runs that made them, as far as they are known
 };
 /// None when the folder holds neither a manifest nor checkpoints or histories. Throws InputError when there is a
 /// manifest.json of something else. Not collective.
@@ -72,6 +75,10 @@ std::optional<EarlierResults> find_results(const std::filesystem::path& folder);
 /// Writes how the last run in the manifest ended, when that manifest says that it is running: for an end of which only
 /// one rank may know. Does nothing when there is no such manifest. Not collective.
 void record_end(const std::filesystem::path& folder, const std::string& status, const std::string& message);
+
+/// What has changed in a case since a checkpoint of the hash `then` was written into the folder of results beside it:
+/// names of settings and files, as far as the manifest there knows them. Not collective.
+std::string changed_since(const std::filesystem::path& checkpoint, std::uint64_t then, const Inputs& now);
 
 /// Removes the files that a run writes, and nothing else. Not collective.
 void remove_results(const std::filesystem::path& folder, const EarlierResults& results);

@@ -12,10 +12,11 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "tunica/base/error.hpp"
-#include "tunica/files/hash.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
 #include "tunica/wall/output.hpp"
@@ -72,8 +73,21 @@ void add_invariants(vtkUnstructuredGrid* grid, std::span<const double> values) {
   grid->GetCellData()->AddArray(principal);
 }
 
+/// How far a corner may lie from that of the file: nodes of the interface take the place of the lumen's, which a mesh
+/// of the wall alone does not know (mesh::join), and files may hold coordinates in single precision.
+double allowed_distance(const std::vector<Vec3<double>>& points, const std::array<std::int64_t, 4>& corners,
+                        double tolerance, double size) {
+  double shortest = std::numeric_limits<double>::max();
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = a + 1; b < 4; ++b)
+      shortest = std::min(
+          shortest, norm(points[static_cast<std::size_t>(corners[a])] - points[static_cast<std::size_t>(corners[b])]));
+  return std::max(tolerance * shortest, 4e-7 * size);
+}
+
 /// What is wrong with the file, empty when nothing is. `wall`: the wall elements of `data`.
-std::string mismatch(const mesh_io::VtkCells& file, const mesh::MeshData& data, const std::vector<std::int64_t>& wall) {
+std::string mismatch(const mesh_io::VtkCells& file, const mesh::MeshData& data, const std::vector<std::int64_t>& wall,
+                     double tolerance) {
   const auto cells = std::ssize(file.types);
   if (cells != std::ssize(wall)) return fmt::format("has {} elements, the wall has {}", cells, wall.size());
   if (std::ssize(file.global_element_ids) != cells) return "has no cell array GlobalElementID";
@@ -89,10 +103,11 @@ std::string mismatch(const mesh_io::VtkCells& file, const mesh::MeshData& data, 
     const auto first = static_cast<std::size_t>(file.offsets[static_cast<std::size_t>(c)]);
     if (file.offsets[static_cast<std::size_t>(c) + 1] != static_cast<std::int64_t>(first + 4))
       return fmt::format("has a cell {} that is no tetrahedron", c + 1);
+    const double allowed = allowed_distance(data.points, corners, tolerance, size);
     for (std::size_t a = 0; a < 4; ++a) {
       const auto& x = file.points[static_cast<std::size_t>(file.connectivity[first + a])];
       const auto& X = data.points[static_cast<std::size_t>(corners[a])];
-      if (!(norm(x - X) <= 1e-9 * size))
+      if (!(norm(x - X) <= allowed))
         return fmt::format(
             "has corner {} of element {} at ({:.6g}, {:.6g}, {:.6g}) m, the wall at ({:.6g}, {:.6g}, "
             "{:.6g}) m",
@@ -120,13 +135,13 @@ void write_prestress(const fs::path& file, const mesh::MeshData& data, wall::Pre
   mesh_io::write_vtk(*writer, file);
 }
 
-void read_prestress(const fs::path& file, mesh::MeshData& data) {
+void read_prestress(const fs::path& file, mesh::MeshData& data, double tolerance) {
   const mesh_io::VtkCells cells = mesh_io::read_vtk_volume(file, {wall::prestress_array});
   std::vector<std::int64_t> wall;
   for (const auto& region : data.regions)
     for (auto e = region.first_element; e < region.end_element && region.kind == mesh::RegionKind::wall; ++e)
       wall.push_back(e);
-  if (const std::string wrong = mismatch(cells, data, wall); !wrong.empty())
+  if (const std::string wrong = mismatch(cells, data, wall, tolerance); !wrong.empty())
     throw InputError(file.string(), wrong, "find the prestress of this mesh by `tunica prestress`");
   const mesh::ElementField& found = cells.fields[0];
   if (found.components != 6 && found.components != 9)
@@ -146,16 +161,6 @@ void read_prestress(const fs::path& file, mesh::MeshData& data) {
     }
   }
   data.fields.push_back(std::move(field));
-}
-
-std::uint64_t prestress_hash(const mesh::MeshData& data) {
-  for (const auto& field : data.fields)
-    if (field.name == wall::prestress_array) {
-      files::Hash hash;
-      hash.add(field.values.data(), field.values.size() * sizeof(double));
-      return hash.value();
-    }
-  return 0;
 }
 
 }  // namespace tunica::artifacts

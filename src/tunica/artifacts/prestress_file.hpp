@@ -1,7 +1,6 @@
 // The file of a prestress: the wall with S0 or F0 on its elements, for a run and for ParaView.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -16,10 +15,8 @@ void write_prestress(const std::filesystem::path& file, const mesh::MeshData& da
                      std::span<const double> values);
 
 /// Adds the array of such a file to the fields of `data`, NaN in the lumen. Throws InputError when it cannot be read or
-/// belongs to another wall: its elements, by number, must have the same corners.
-void read_prestress(const std::filesystem::path& file, mesh::MeshData& data);
-
-/// Number that changes with any value of the prestress; 0 without.
-std::uint64_t prestress_hash(const mesh::MeshData& data);
+/// belongs to another wall: its elements, by number, must have the same corners, within the share
+/// `tolerance` of their shortest edge.
+void read_prestress(const std::filesystem::path& file, mesh::MeshData& data, double tolerance = 0.01);
 
 }  // namespace tunica::artifacts

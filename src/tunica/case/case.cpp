@@ -189,7 +189,9 @@ void check_chain(const Case& c, Problems& problems) {
   if (!c.compare.empty() && !c.solves_wall())
     problems.add("compare", "is given, but the analysis has no wall", "remove it");
   if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
-  if (!c.is_chain() || !c.prestress) return;
+  if (c.compare.size() == 1)
+    problems.add("compare", "names fewer than two laws", "add `compare: {neo_hooke: {material: ...}, ...}`");
+  if (!(c.mesh || c.fibres) || !c.prestress) return;
   const char* remedy = "remove it: that of the stage `prestress` is taken";
   if (c.wall && c.wall->prestress) problems.add("wall.prestress", "is given, and the section `prestress` too", remedy);
   if (c.start) problems.add("start", "is given, and the section `prestress` too", remedy);
@@ -347,6 +349,8 @@ Schema<OutputSettings> OutputSettings::schema() {
 bool Case::solves_fluid() const {
   return std::holds_alternative<FluidStructure>(analysis) || std::holds_alternative<RigidFlow>(analysis);
 }
+
+bool Case::finds_prestress() const { return prestress && !(wall && wall->prestress); }
 
 bool Case::solves_wall() const { return !std::holds_alternative<RigidFlow>(analysis); }
 

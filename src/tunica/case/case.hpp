@@ -129,8 +129,8 @@ struct Case {
   coupling::LinearSettings linear;
   OutputSettings output;
 
-  /// Is there more to do than to run it (chain/chain.hpp)?
-  bool is_chain() const { return mesh || fibres || report; }
+  /// Is there a prestress to be found? Not where `wall.prestress` names what was found.
+  bool finds_prestress() const;
   bool solves_fluid() const;
   bool solves_wall() const;
   static config::Schema<Case> schema();

@@ -134,6 +134,13 @@ std::string file_stem(const std::string& region, std::int64_t step) { return fmt
 
 }  // namespace
 
+void check_region_names(const DistributedMesh& mesh) {
+  for (const auto& region : mesh.regions)
+    if (region.name.empty() || region.name.find_first_of("/&<>\"") != std::string::npos)
+      throw InputError("region \"" + region.name + "\"", "this name cannot be part of a file name",
+                       "rename the region");
+}
+
 struct ResultsWriter::Implementation {
   const DistributedMesh& mesh;
   ResultsOptions options;
@@ -157,10 +164,7 @@ struct ResultsWriter::Implementation {
   fs::path pvd(std::size_t region) const { return options.directory / (mesh.regions[region].name + ".pvd"); }
 
   void prepare_directory() {
-    for (const auto& region : mesh.regions)
-      if (region.name.empty() || region.name.find_first_of("/&<>\"") != std::string::npos)
-        throw InputError("region \"" + region.name + "\"", "this name cannot be part of a file name",
-                         "rename the region");
+    check_region_names(mesh);
     files::make_folder(options.directory);
     std::vector<fs::path> names;
     for (const auto& region : mesh.regions)

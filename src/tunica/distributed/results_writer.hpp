@@ -40,6 +40,9 @@ struct ResultsOptions {
   std::optional<double> continue_from{};  ///< time of the restart [s]: keep the series up to it. Otherwise begin anew
 };
 
+/// Throws InputError where the name of a region cannot be part of a file name.
+void check_region_names(const DistributedMesh& mesh);
+
 /// Writes for each region `<region>.pvd`, the series, and for each step `<region>_<step>.pvtu` with one
 /// `<region>_<step>_<rank>.vtu` per rank that has elements of it. Numbers are Float32; coordinates are those of the
 /// reference configuration. The .pvd and .pvtu appear by renaming and only after what they refer to is complete, so

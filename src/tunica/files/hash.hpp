@@ -13,19 +13,23 @@ class Hash {
  public:
   void add(const void* data, std::size_t bytes) {
     const char* p = static_cast<const char*>(data);
-    for (; bytes > 0;) {
-      const std::size_t n = bytes < 8 ? bytes : 8;
-      std::uint64_t word = 0;
-      std::memcpy(&word, p, n);
-      value_ = (value_ ^ word) * 1099511628211ULL;
-      value_ ^= value_ >> 32;  // words, unlike bytes, need their high bits brought down
-      p += n;
-      bytes -= n;
+    std::uint64_t word = 0;
+    for (; bytes >= sizeof word; p += sizeof word, bytes -= sizeof word) {
+      std::memcpy(&word, p, sizeof word);
+      add(word);
     }
+    if (bytes == 0) return;
+    word = 0;
+    std::memcpy(&word, p, bytes);
+    add(word);
   }
   std::uint64_t value() const { return value_; }
 
  private:
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 1099511628211ULL;
+    value_ ^= value_ >> 32;  // words, unlike bytes, need their high bits brought down
+  }
   std::uint64_t value_ = 14695981039346656037ULL;
 };
 

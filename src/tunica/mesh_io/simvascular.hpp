@@ -48,4 +48,7 @@ mesh::LoadedMesh read_simvascular(const std::filesystem::path& folder, mesh::Reg
 std::vector<std::string> write_simvascular(const std::filesystem::path& folder, const mesh::MeshData& data,
                                            mesh::RegionKind kind, double metres_per_unit);
 
+/// The files that read_simvascular() reads in a folder, as far as they are there: the volume, then the faces.
+std::vector<std::filesystem::path> simvascular_files(const std::filesystem::path& folder);
+
 }  // namespace tunica::mesh_io

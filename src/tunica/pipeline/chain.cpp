@@ -11,6 +11,9 @@
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/patience.hpp"
+#include "tunica/pipeline/compare.hpp"
+#include "tunica/pipeline/foresight.hpp"
 #include "tunica/pipeline/plan.hpp"
 
 namespace tunica::pipeline {
@@ -35,13 +38,13 @@ std::size_t first_anew(const ChainRequest& request, const std::vector<const Stag
   return request.from ? place_of(wanted, *request.from, "--from") : wanted.size();
 }
 
-/// First lines of a stage's case file.
+/// First lines of a stage's case file. No absolute path: the folder may be moved.
 std::string head_of(const Chain& chain, const Stage& stage) {
-  const std::string command = stage.name == std::string("run") ? "run" : stage.name;
+  const fs::path folder = fs::absolute(folder_of(chain, stage)).lexically_normal();
   return fmt::format(
       "# {}: made by `tunica run` from {}, and written anew by the next one.\n"
-      "# By hand, in this folder: tunica {} {}\n",
-      stage.what, fs::absolute(chain.file).lexically_normal().string(), command, stage.file);
+      "# By hand, in this folder: {}\n",
+      stage.what, fs::absolute(chain.file).lexically_normal().lexically_relative(folder).string(), stage.by_hand);
 }
 
 void remove_partial(const fs::path& folder, const Stage& stage) {
@@ -83,13 +86,13 @@ class ChainRun {
       chain_ = read_chain(request_.case_file, request_.directory, warnings);
       chain_.program = request_.program;
       for (const auto& warning : warnings) say("warning: " + format(warning));
-      const auto wanted = wanted_stages(chain_);
-      count_ = request_.until ? place_of(wanted, *request_.until, "--until") + 1 : wanted.size();
       take_folder(lock_, chain_.output);
-      // Now, not after the hours of the stages before it.
-      for (std::size_t k = 0; k < count_; ++k) files::refuse_if_owned_by_another(folder_of(chain_, *wanted[k]));
-      from_ = first_anew(request_, wanted);
-      for (const auto* stage : wanted) places_.push_back(static_cast<std::size_t>(stage - stages().data()));
+    });
+    parallel::on_root_patiently(comm_, [&] {
+      if (request_.only)
+        choose_only(*request_.only);
+      else
+        choose();
     });
     parallel::broadcast(comm_, count_);
     parallel::broadcast(comm_, places_);
@@ -132,6 +135,45 @@ class ChainRun {
   }
 
   // --- rank 0 -------------------------------------------------------------------------------------------------------
+
+  void add(const Stage& stage) { places_.push_back(static_cast<std::size_t>(&stage - stages().data())); }
+
+  void choose() {
+    const auto wanted = wanted_stages(chain_);
+    count_ = request_.until ? place_of(wanted, *request_.until, "--until") + 1 : wanted.size();
+    // Now, not after the hours of the stages before it.
+    for (std::size_t k = 0; k < count_; ++k) files::refuse_if_owned_by_another(folder_of(chain_, *wanted[k]));
+    from_ = first_anew(request_, wanted);
+    for (const auto* stage : wanted) add(*stage);
+    // What a stage would refuse is told before any is done. Figures and page look at what they need themselves.
+    for (std::size_t k = 0; k < count_ && comes_before_results(*wanted[k]); ++k)
+      if (!plan(chain_, *wanted[k], k >= from_).fresh) {
+        check_on_meshes(chain_);
+        break;
+      }
+  }
+
+  static bool comes_before_results(const Stage& stage) {
+    return stage.name != std::string("post") && stage.name != std::string("report");
+  }
+
+  /// One stage, whether the case has its section or not.
+  void choose_only(const std::string& name) {
+    if (!chain_.document.has(name)) chain_.document.set(name, config::Document("{}"));
+    count_ = 1;
+    from_ = request_.overwrite ? 0 : 1;
+    for (const auto& stage : stages()) {
+      if (stage.name == name) return add(stage);
+      const fs::path result = folder_of(chain_, stage) / stage.result;
+      if (stage.wanted(chain_.settings) && !fs::exists(result))
+        throw InputError(result.string(), fmt::format("is missing: the stage {} comes before {}", stage.name, name),
+                         fmt::format("do it first: tunica run {} --until {}", request_.case_file.string(), stage.name));
+      if (!stage.wanted(chain_.settings)) continue;
+      if (const Plan before = plan(chain_, stage, false); !before.fresh)
+        say(fmt::format("warning: what the stage {} has left does not belong to the case as it is now: {}", stage.name,
+                        before.reason));
+    }
+  }
 
   void say(const std::string& text) const {
     if (parallel::rank(comm_) != 0 || !screen_) return;
@@ -217,22 +259,65 @@ class ChainRun {
   std::vector<Line> lines_;
 };
 
+/// The outlets are given where they have a file, named or beside the case, and nothing else is to be done.
+bool asks_for_stages(const config::Document& d, const fs::path& folder) {
+  for (const char* section : {"mesh", "fibres", "post", "report", "compare"})
+    if (d.has(section)) return true;
+  if (d.has("prestress") && !d.has("wall.prestress")) return true;
+  if (!d.has("outlets") || d.has("outlets.file")) return false;
+  const std::string given = d.text("outlets.output");
+  return !fs::exists(folder / (given.empty() ? "outlets" : given) / "outlets.yaml");
+}
+
 }  // namespace
 
 bool is_chain(const fs::path& case_file, MPI_Comm comm) {
   bool chain = parallel::on_root(comm, [&] {
-    const config::Document document(config::read_text(case_file), case_file.string());
-    return document.has("mesh") || document.has("fibres") || document.has("report");
+    return asks_for_stages(config::Document(config::read_text(case_file), case_file.string()), case_file.parent_path());
   });
   parallel::broadcast(comm, chain);
   return chain;
 }
 
-std::vector<std::string> check_chain(const ChainRequest& request) {
+bool is_case(const fs::path& file, MPI_Comm comm) {
+  bool found =
+      parallel::on_root(comm, [&] { return config::Document(config::read_text(file), file.string()).has("analysis"); });
+  parallel::broadcast(comm, found);
+  return found;
+}
+
+OwnRecord::OwnRecord(const std::string& name, const fs::path& file, const fs::path& folder, int ranks,
+                     const artifacts::ProgramVersion& program)
+    : folder_(folder) {
+  const auto stage = std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == name; });
+  const config::Document document(config::read_text(file), file.string());
+  const config::Origin origin{.name = file.string(), .folder = file.parent_path()};
+  record_.stage = name;
+  record_.inputs = artifacts::inputs_of(stage->settings(document, origin), stage->without);
+  record_.ranks = ranks;
+  record_.version = program.version;
+  record_.commit = program.commit;
+}
+
+void OwnRecord::begin() {
+  create_folder(folder_);
+  record_.status = "running";
+  write_record(folder_, record_);
+}
+
+void OwnRecord::done() {
+  record_.status = "done";
+  record_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  write_record(folder_, record_);
+}
+
+std::vector<std::string> check_chain(const ChainRequest& request, bool with_meshes) {
   std::vector<Problem> warnings;
   const Chain chain = read_chain(request.case_file, request.directory, warnings);
   std::vector<std::string> lines;
   for (const auto& warning : warnings) lines.push_back("warning: " + format(warning));
+  if (with_meshes)
+    for (const auto& line : check_on_meshes(chain)) lines.push_back(line);
   const auto wanted = wanted_stages(chain);
   const auto end = request.until ? place_of(wanted, *request.until, "--until") + 1 : wanted.size();
   const auto from = first_anew(request, wanted);
@@ -252,17 +337,26 @@ std::vector<std::string> check_chain(const ChainRequest& request) {
     }
     lines.push_back(fmt::format("{}/{} {:<10} {}", k + 1, end, stage.name, state));
   }
+  if (!chain.settings.compare.empty() && !request.until)
+    lines.push_back(fmt::format("then {} laws side by side, each with stages of its own in {}",
+                                chain.settings.compare.size(), (chain.output / "compare").string()));
   return lines;
 }
 
 int run_chain(const ChainRequest& request, MPI_Comm comm, std::FILE* screen) {
   if (request.dry_run) {
     parallel::on_root(comm, [&] {
-      for (const auto& line : check_chain(request)) std::fprintf(screen, "%s\n", line.c_str());
+      for (const auto& line : check_chain(request, false)) std::fprintf(screen, "%s\n", line.c_str());
     });
     return 0;
   }
-  return ChainRun(request, comm, screen).steps();
+  if (const int signal = ChainRun(request, comm, screen).steps(); signal != 0) return signal;
+  bool compares = parallel::on_root(comm, [&] {
+    return !request.until && !request.only &&
+           config::Document(config::read_text(request.case_file), request.case_file.string()).has("compare");
+  });
+  parallel::broadcast(comm, compares);
+  return compares ? compare_on_common(request, comm, screen) : 0;
 }
 
 }  // namespace tunica::pipeline

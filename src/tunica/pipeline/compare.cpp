@@ -14,6 +14,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/pipeline/foresight.hpp"
 #include "tunica/pipeline/plan.hpp"
 
 namespace tunica::pipeline {
@@ -35,16 +36,16 @@ std::string last_common_stage(const case_file::Case& c) {
 fs::path write_variant(const Chain& chain, const std::string& name) {
   const fs::path folder = chain.output / "compare" / name, file = folder / "case.yaml";
   config::Document document = case_on_common_mesh(chain, folder);
-  const config::Document law = chain.document.part("compare").part(name);
   document.set("title", fmt::format("{}{}{}", chain.settings.title, chain.settings.title.empty() ? "" : ": ", name));
-  document.set("wall.material", law.part("material"));
+  const config::Document law = with_law(chain.document, name);
+  document.set("wall.material", law.part("wall.material"));
   document.remove("wall.regions");
-  if (law.has("regions")) document.set("wall.regions", law.part("regions"));
+  if (law.has("wall.regions")) document.set("wall.regions", law.part("wall.regions"));
   if (!document.has("post")) document.set("post", config::Document("{}"));
   if (!document.has("report")) document.set("report", config::Document("{pictures: false}"));
   document.set("output.directory", ".");
   files::make_folder(folder);
-  files::write_atomically(file, fmt::format("# {} of `tunica compare` {}\n", name, chain.file.string()) +
+  files::write_atomically(file, fmt::format("# {} of `tunica compare` {}\n", name, chain.file.filename().string()) +
                                     config::commented_yaml(document, *case_file::Case::schema().description()));
   return file;
 }
@@ -140,29 +141,42 @@ void write_comparison(const Chain& chain, const std::vector<std::string>& names)
 
 }  // namespace
 
+namespace {
+
+/// On rank 0. Throws InputError when there are not at least two laws.
+Chain read_laws(const ChainRequest& request) {
+  std::vector<Problem> warnings;
+  Chain chain = read_chain(request.case_file, request.directory, warnings);
+  if (chain.settings.compare.size() < 2)
+    throw InputError("compare", "names fewer than two laws", "add `compare: {neo_hooke: {material: ...}, ...}`");
+  return chain;
+}
+
+}  // namespace
+
 int compare_laws(const ChainRequest& request, MPI_Comm comm, std::FILE* screen) {
-  Chain chain;
-  std::vector<std::string> names;
-  std::string common;
   files::FolderLock lock;  // rank 0; the chains in it find it their own
-  parallel::on_root(comm, [&] {
-    std::vector<Problem> warnings;
-    chain = read_chain(request.case_file, request.directory, warnings);
-    for (const auto& [name, law] : chain.settings.compare) names.push_back(name);
-    if (names.size() < 2)
-      throw InputError("compare", "names fewer than two laws", "add `compare: {neo_hooke: {material: ...}, ...}`");
-    common = last_common_stage(chain.settings);
+  std::string common = parallel::on_root(comm, [&] {
+    const Chain chain = read_laws(request);
     lock = files::FolderLock(chain.output);
     if (!lock.taken_over().empty()) std::fprintf(screen, "warning: %s\n", lock.taken_over().c_str());
     files::try_outputs(chain.output, {"compare/compare.csv", "compare/compare.html"});
+    return last_common_stage(chain.settings);
   });
-  parallel::broadcast(comm, names);
   parallel::broadcast(comm, common);
   if (!common.empty()) {
     ChainRequest first = request;
     first.until = common;
     if (const int signal = run_chain(first, comm, screen); signal != 0) return signal;
   }
+  return compare_on_common(request, comm, screen);
+}
+
+int compare_on_common(const ChainRequest& request, MPI_Comm comm, std::FILE* screen) {
+  Chain chain = parallel::on_root(comm, [&] { return read_laws(request); });
+  std::vector<std::string> names;
+  for (const auto& [name, law] : chain.settings.compare) names.push_back(name);
+  parallel::broadcast(comm, names);
   for (const auto& name : names) {
     std::string file = parallel::on_root(comm, [&] {
       std::fprintf(screen, "\n##### %s\n", name.c_str());

@@ -15,4 +15,7 @@ namespace tunica::pipeline {
 /// request are not looked at. Returns the signal that stopped it, 0: none. Throws as run_chain(). Collective.
 int compare_laws(const ChainRequest& request, MPI_Comm comm, std::FILE* screen);
 
+/// The same when the stages that the laws have in common are done already. Collective.
+int compare_on_common(const ChainRequest& request, MPI_Comm comm, std::FILE* screen);
+
 }  // namespace tunica::pipeline

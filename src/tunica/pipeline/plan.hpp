@@ -13,7 +13,7 @@ namespace tunica::pipeline {
 /// A stage as it would be done now.
 struct Plan {
   config::Document document;  ///< its case file
-  Inputs inputs;
+  artifacts::Inputs inputs;
   bool fresh = false;   ///< the result is there and has the same inputs
   bool resume = false;  ///< else: it goes on with what is there
   std::string reason;

@@ -6,10 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tunica/artifacts/inputs.hpp"
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/config/document.hpp"
@@ -36,19 +37,13 @@ struct StageCall {
   std::filesystem::path folder() const { return file.parent_path(); }
 };
 
-/// What has changed since the last time, by name.
-struct Change {
-  std::vector<std::string> settings;             ///< keys of the stage's case file
-  std::vector<std::string> files;                ///< that it reads
-  std::map<std::string, std::string> then, now;  ///< all settings
-};
-
 struct Stage {
-  const char* name;    ///< of its folder, and for --from and --until
-  const char* what;    ///< for the header
-  const char* file;    ///< name of its case file
-  const char* output;  ///< key of the case that names another folder; empty: there is none
-  const char* result;  ///< the file that is written last
+  const char* name;     ///< of its folder, and for --from and --until
+  const char* what;     ///< for the header
+  const char* file;     ///< name of its case file
+  const char* by_hand;  ///< command that does it again, in its folder
+  const char* output;   ///< key of the case that names another folder; empty: there is none
+  const char* result;   ///< the file that is written last
   /// What it leaves, as patterns of paths in its folder: once one of these files is gone or damaged, it is not fresh.
   std::vector<std::string> outputs;
   std::function<bool(const case_file::Case&)> wanted;
@@ -59,14 +54,14 @@ struct Stage {
   /// What the document settles. Throws InputError.
   std::function<std::vector<config::Setting>(const config::Document&, const config::Origin&)> settings;
   std::vector<std::string> without;  ///< patterns of keys that do not change the result
-  /// Files that it reads besides those that the document names; may be empty.
-  std::function<std::vector<std::filesystem::path>(const Chain&)> reads;
+  /// Files that it reads besides those that the document names, with a name each; may be empty.
+  std::function<std::vector<std::pair<std::string, std::filesystem::path>>(const Chain&)> reads;
 
   /// What it goes on with, as patterns of names in its folder: removed before it begins anew, so that a later call
   /// cannot take what belongs to other inputs.
   std::vector<std::string> partial;
   /// Can it go on with what is there after such a change?
-  std::function<bool(const Change&)> continues;
+  std::function<bool(const artifacts::Change&)> continues;
   /// Can it, with the same inputs, make up for outputs that are lost by going on with what is there? May be empty: no.
   std::function<bool(const std::filesystem::path& folder, const std::vector<std::string>& lost)> recovers;
   /// Does it. Returns the signal that stopped it, 0: none. Collective.

@@ -26,7 +26,9 @@ namespace tunica::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using artifacts::Change;
 using config::Document;
+using NamedFiles = std::vector<std::pair<std::string, fs::path>>;
 
 // --- case files of the stages ---------------------------------------------------------------------------------------
 
@@ -115,7 +117,7 @@ Document prestress_document(const Chain& chain, const fs::path& folder) {
 
 /// The prestress and the state that the case starts from, where the stage `prestress` has found them.
 void set_start(const Chain& chain, const fs::path& folder, Document& document) {
-  if (!chain.settings.prestress) return;
+  if (!chain.settings.finds_prestress()) return;
   const fs::path found = folder_of(chain, stage("prestress"));
   document.set("wall.prestress", path_to(found / "wall.vtu", folder));
   document.set("start", path_to(found / "start.checkpoint", folder));
@@ -156,13 +158,13 @@ Document post_document(const Chain& chain, const fs::path& folder) {
 }
 
 /// The fields and histories of a run are as they are since this file was written.
-std::vector<fs::path> run_manifest(const Chain& chain) { return {folder_of(chain, stage("run")) / "manifest.json"}; }
+NamedFiles run_manifest(const Chain& chain) { return {{"run", folder_of(chain, stage("run")) / "manifest.json"}}; }
 
-std::vector<fs::path> records(const Chain& chain) {
-  std::vector<fs::path> files;
+NamedFiles records(const Chain& chain) {
+  NamedFiles files;
   for (const auto& s : stages())
     if (s.wanted(chain.settings) && s.name != std::string("report"))
-      files.push_back(folder_of(chain, s) / "stage.json");
+      files.emplace_back(s.name, folder_of(chain, s) / "stage.json");
   return files;
 }
 
@@ -173,7 +175,8 @@ Document report_document(const Chain& chain, const fs::path& folder) {
   for (const auto& s : stages())
     if (s.wanted(chain.settings) && s.name != std::string("report"))
       document.set(fmt::format("stages.{}", s.name), path_to(folder_of(chain, s), folder));
-  document.set("pictures", chain.settings.report->pictures ? "true" : "false");
+  const bool pictures = chain.settings.report.value_or(case_file::ReportSettings{}).pictures;
+  document.set("pictures", pictures ? "true" : "false");
   document.set("length_unit", chain.settings.output.units.length);
   document.set("output", ".");
   return document;
@@ -226,6 +229,7 @@ int run_outlets(const StageCall& call) {
   request.case_file = call.file;
   request.overwrite = !call.resume;
   request.program = call.program;
+  request.run_case = stages::run_case;
   return stages::tune(call.comm, request, call.screen);
 }
 
@@ -314,6 +318,7 @@ const std::vector<Stage>& stages() {
       {.name = "mesh",
        .what = "mesh of lumen and wall",
        .file = "mesh.yaml",
+       .by_hand = "tunica mesh mesh.yaml --overwrite",
        .output = "mesh.output",
        .result = "meshes.yaml",
        .outputs = {"lumen/*", "wall/*", "meshes.yaml", "report.json", "report.html"},
@@ -330,6 +335,7 @@ const std::vector<Stage>& stages() {
       {.name = "fibres",
        .what = "material directions in the wall",
        .file = "fibres.yaml",
+       .by_hand = "tunica fibres fibres.yaml --overwrite",
        .output = "fibres.output",
        .result = "meshes.yaml",
        .outputs = {"lumen/*", "wall/*", "meshes.yaml", "report.json"},
@@ -346,11 +352,12 @@ const std::vector<Stage>& stages() {
       {.name = "prestress",
        .what = "prestress of the imaged wall",
        .file = "case.yaml",
+       .by_hand = "tunica prestress case.yaml --overwrite",
        .output = "prestress.output",
        .result = "start.checkpoint",
        .outputs = {"start.checkpoint", "flow.checkpoint", "wall.vtu", "prestress.json", "boundary.yaml",
                    "fixed_point.*", "flow/*", "wall/*", "traction/*"},
-       .wanted = [](const case_file::Case& c) { return c.prestress.has_value(); },
+       .wanted = [](const case_file::Case& c) { return c.finds_prestress(); },
        .document = prestress_document,
        .description = description_of<case_file::Case>(),
        .settings = settings_of<case_file::Case>,
@@ -383,6 +390,7 @@ const std::vector<Stage>& stages() {
       {.name = "outlets",
        .what = "outlets for the pressures and flows that are asked for",
        .file = "case.yaml",
+       .by_hand = "tunica tune case.yaml",
        .output = "outlets.output",
        .result = "outlets.yaml",
        .outputs = {"outlets.yaml", "tuning.*", "pressure.svg"},
@@ -399,6 +407,7 @@ const std::vector<Stage>& stages() {
       {.name = "run",
        .what = "the case itself",
        .file = "case.yaml",
+       .by_hand = "tunica run case.yaml --restart",
        .output = "",
        .result = "manifest.json",
        .outputs = {"manifest.json", "*.csv", "*.pvd", "*.pvtu", "*.vtu", "checkpoints/*"},
@@ -416,6 +425,7 @@ const std::vector<Stage>& stages() {
       {.name = "post",
        .what = "figures of the cycle",
        .file = "case.yaml",
+       .by_hand = "tunica post case.yaml --overwrite",
        .output = "post.output",
        .result = "post.json",
        .outputs = {"post.json", "*.csv", "*.svg", "*.vtp", "*.vtu"},
@@ -434,6 +444,7 @@ const std::vector<Stage>& stages() {
       {.name = "report",
        .what = "one page with what was done and found",
        .file = "report.yaml",
+       .by_hand = "tunica report report.yaml --overwrite",
        .output = "",
        .result = "report.html",
        .outputs = {"report.html"},

@@ -56,6 +56,7 @@ void tune(const fs::path& file, bool overwrite = false) {
   request.case_file = file;
   request.overwrite = overwrite;
   request.program = {"test", "none"};
+  request.run_case = stages::run_case;
   EXPECT_EQ(stages::tune(MPI_COMM_WORLD, request, nullptr), 0);
   MPI_Barrier(MPI_COMM_WORLD);
 }

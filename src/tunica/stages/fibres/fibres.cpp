@@ -41,13 +41,6 @@ void check_names(const std::vector<std::string>& wanted, const std::vector<std::
           {key, fmt::format("the mesh has no {} '{}'", what, name), "use some of: " + mesh::list_names(known)});
 }
 
-std::vector<std::string> wall_regions(const mesh::MeshData& data) {
-  std::vector<std::string> names;
-  for (const auto& region : data.regions)
-    if (region.kind == mesh::RegionKind::wall) names.push_back(region.name);
-  return names;
-}
-
 /// Values of the elements of the wall, in the order of the graph, on rank 0 for all elements of the mesh.
 class Gatherer {
  public:
@@ -133,8 +126,13 @@ frames::FrameFaces face_roles(const case_file::FibresCase& c, const mesh::MeshDa
   check_names(c.inlet, faces, "inlet", "face", problems);
   check_names(c.outer, faces, "outer", "face", problems);
   check_names(c.inner_faces(), faces, "inner", "face", problems);
+  const auto regions = artifacts::wall_regions(data);
   for (const auto& [name, region] : c.regions)
-    check_names({name}, wall_regions(data), "regions." + name, "region of the wall", problems);
+    check_names({name}, regions, "regions." + name, "region of the wall", problems);
+  if (c.tears) {
+    check_names(c.tears->true_lumen, regions, "tears.true_lumen", "region of the wall", problems);
+    check_names(c.tears->false_lumen, regions, "tears.false_lumen", "region of the wall", problems);
+  }
   if (!problems.empty()) throw InputError(std::move(problems));
 
   std::set<std::string> taken(c.inlet.begin(), c.inlet.end());
@@ -205,6 +203,7 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const f
                        {"meshes.yaml", "report.json", "wall/mesh-complete.mesh.vtu", "wall/mesh-surfaces/face.vtp"});
     loaded = artifacts::load_meshes(c.meshes, {});
     for (const auto& line : loaded.warnings) say("warning: " + line);
+    request.before_work();
   });
   parallel::broadcast(comm, text);
   if (parallel::rank(comm) != 0) c = case_file::parse_fibres_case(text, request.file);

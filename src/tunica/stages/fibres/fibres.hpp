@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,7 @@ struct FibresRequest {
   std::filesystem::path file;
   std::optional<std::filesystem::path> output{};  ///< instead of the one in the file
   bool overwrite = false;
+  std::function<void()> before_work = [] {};  ///< called on rank 0 once nothing stands in the way of the result
 };
 /// Reads the file, makes the directions and writes wall/ and lumen/ (SimVascular's layout, mm), meshes.yaml (sections
 /// for a case) and report.json. Returns the report as text (rank 0). Throws InputError when there is a result already

@@ -93,7 +93,8 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
           mesh_page({mesh_case.title, mesh, regions, tears, prepared, report})};
 }
 
-std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say) {
+std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say,
+                          const std::function<void()>& before_work) {
   const auto& folder = mesh_case.output;
   const auto report_file = folder / "report.json";
   const files::FolderLock lock(folder);
@@ -104,6 +105,7 @@ std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, 
   for (const std::filesystem::path part : {"lumen", "wall"})
     planned.insert(planned.end(), {part / "mesh-complete.mesh.vtu", part / "mesh-surfaces/face.vtp"});
   files::try_outputs(folder, planned);
+  before_work();
   const MadeMesh made = make_mesh(mesh_case, say);
   mesh_io::write_simvascular(folder / "lumen", made.data, mesh::RegionKind::lumen, geometry::mm);
   const auto regions = mesh_io::write_simvascular(folder / "wall", made.data, mesh::RegionKind::wall, geometry::mm);

@@ -1,6 +1,7 @@
 // `tunica mesh`: from what its file says to a mesh and a report on it.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "tunica/case/mesh_settings.hpp"
@@ -20,7 +21,9 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say);
 
 /// Makes the mesh and writes lumen/ and wall/ (SimVascular's layout, mm), report.json, report.html and meshes.yaml, the
 /// section for a case file. Returns the report as text. Throws InputError when there is a mesh already and `overwrite`
-/// is false.
-std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say);
+/// is false. `before_work`: called once that is settled.
+std::string mesh_to_files(
+    const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say,
+    const std::function<void()>& before_work = [] {});
 
 }  // namespace tunica::stages

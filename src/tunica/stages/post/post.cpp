@@ -31,6 +31,21 @@ analysis::PostSettings settings_of(const case_file::Case& c) {
   return settings;
 }
 
+void check_analysis(const case_file::Case& c) {
+  if (std::holds_alternative<case_file::StaticWall>(c.analysis))
+    throw InputError("analysis", "is static_wall, which has no course in time", "choose fsi, flow or wall");
+}
+
+/// Of the fields that a run in nominal steps writes [s]: the first, every so many, the last.
+std::vector<double> times_to_come(const case_file::Case& c) {
+  std::vector<double> times;
+  const std::int64_t last = c.time->most_steps();
+  for (std::int64_t step = 0; step < last; step += c.output.every)
+    times.push_back(static_cast<double>(step) * c.time->step);
+  times.push_back(static_cast<double>(last) * c.time->step);
+  return times;
+}
+
 /// Frames as they are needed one after the other: the present one, and its neighbours for rates.
 class FrameWindow {
  public:
@@ -105,8 +120,7 @@ void Post::read() {
     auto parsed = case_file::read_case(request_.case_file);
     case_ = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) warnings_.push_back(format(warning));
-    if (std::holds_alternative<case_file::StaticWall>(case_.analysis))
-      throw InputError("analysis", "is static_wall, which has no course in time", "choose fsi, flow or wall");
+    check_analysis(case_);
   });
   parallel::broadcast(comm_, text);
   if (parallel::rank(comm_) != 0) case_ = case_file::parse_case(text, request_.case_file);
@@ -200,6 +214,12 @@ void Post::steps() {
 }
 
 }  // namespace
+
+void check_post(const case_file::Case& c) {
+  check_analysis(c);
+  std::vector<std::string> only_of_results;
+  choose_window(times_to_come(c), settings_of(c), "post: the run", only_of_results);
+}
 
 fs::path post_folder(const case_file::Case& c, const PostRequest& request) {
   if (request.output) return *request.output;

@@ -29,6 +29,10 @@ struct PostRequest {
 /// mesh. The same on all ranks. Collective.
 void post_results(MPI_Comm comm, const PostRequest& request, std::FILE* screen);
 
+/// Looks at a case before it is run. Throws InputError when it has no course in time, or the fields that the run will
+/// write do not cover the window.
+void check_post(const case_file::Case& c);
+
 /// Where its files go.
 std::filesystem::path post_folder(const case_file::Case& c, const PostRequest& request);
 

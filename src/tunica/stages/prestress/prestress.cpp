@@ -208,10 +208,10 @@ void PrestressRun::read() {
     lumen_interface_ = case_.meshes.interface->lumen_faces;
     wall_interface_ = case_.meshes.interface->wall_faces;
   }
-  const auto wall = wall_case(case_, wall_faces_);
-  check_support(wall, wall_faces_, wall_interface_);
   parallel::on_root(comm_, [&] {
-    auto problems = case_file::check_table_ends(wall.boundary, case_file::asked_by_prestress(case_));
+    check_prestress(case_, artifacts::faces_of(whole_.data), artifacts::wall_regions(whole_.data));
+    auto problems =
+        case_file::check_table_ends(wall_case(case_, wall_faces_).boundary, case_file::asked_by_prestress(case_));
     if (!problems.empty()) throw InputError(std::move(problems));
   });
 }
@@ -527,6 +527,19 @@ void PrestressRun::compute() {
 }
 
 }  // namespace
+
+void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces,
+                     const std::vector<std::string>& wall_regions) {
+  const case_file::InterfaceSettings interface = c.meshes.interface.value_or(case_file::InterfaceSettings{});
+  std::vector<std::string> lumen, wall;
+  for (const auto& face : faces) (face.field == bc::Field::lumen ? lumen : wall).push_back(face.name);
+  if (c.solves_fluid()) steady_conditions(c.boundary, lumen, interface.lumen_faces, c.prestress->flow.value());
+  check_support(wall_case(c, wall), wall, interface.wall_faces);
+  for (const auto& region : c.prestress->fixed_point.exclude)
+    if (std::find(wall_regions.begin(), wall_regions.end(), region) == wall_regions.end())
+      throw InputError("prestress.exclude", fmt::format("the mesh has no wall region {}", region),
+                       "use some of: " + mesh::list_names(wall_regions));
+}
 
 int prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen) {
   const parallel::StopSignals signals;

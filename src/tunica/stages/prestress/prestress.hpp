@@ -6,8 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/bc/check.hpp"
+#include "tunica/case/case.hpp"
 
 namespace tunica::stages {
 
@@ -20,6 +24,12 @@ struct PrestressRequest {
   bool keep_flow = false;
   artifacts::ProgramVersion program;
 };
+
+/// Looks at a case on these faces and regions of the wall before anything is computed; `c.boundary` has no patterns any
+/// more. Throws InputError where the steady flow cannot have the conditions of the lumen, or statics not those of the
+/// wall, and for regions that are not there.
+void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces,
+                     const std::vector<std::string>& wall_regions);
 
 /// Finds the prestress of the wall and writes into the folder of results:
 /// - flow.checkpoint, flow/: the steady flow between rigid walls, one step before its end and at its end;

@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
 
 #include "tunica/artifacts/checkpoint.hpp"
-#include "tunica/artifacts/fields.hpp"
 #include "tunica/artifacts/histories.hpp"
-#include "tunica/artifacts/outlets_file.hpp"
-#include "tunica/artifacts/prestress_file.hpp"
-#include "tunica/artifacts/problem_input.hpp"
 #include "tunica/artifacts/step_grid.hpp"
 #include "tunica/assembly/isa.hpp"
 #include "tunica/assembly/time_scheme.hpp"
@@ -72,7 +67,6 @@ class Run {
   void distribute();
   std::string command(const char* option) const;
   void restore();
-  void start_from(const fs::path& file);
   void open_outputs();
 
   StepReport attempt();
@@ -110,10 +104,11 @@ class Run {
   bool folder_has_results_ = false;
   std::string manifest_damage_;  ///< rank 0: of the manifest of the run that is continued
   std::optional<parallel::Log> log_;
-  distributed::DistributedMesh mesh_;
-  std::optional<coupling::Problem> problem_;
-  std::optional<coupling::Monitors> monitors_;
-  std::optional<artifacts::OutputFields> fields_;
+  PosedCase posed_;
+  distributed::DistributedMesh& mesh_ = posed_.mesh;
+  std::optional<coupling::Problem>& problem_ = posed_.problem;
+  std::optional<coupling::Monitors>& monitors_ = posed_.monitors;
+  std::optional<artifacts::OutputFields>& fields_ = posed_.fields;
   std::optional<distributed::ResultsWriter> writer_;
   std::optional<artifacts::Histories> histories_;  ///< rank 0
   std::optional<Cycles> cycles_;                   ///< rank 0, with cycles
@@ -138,7 +133,7 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
       grid_(make_grid(nullptr)) {
   mesh_hash_ = parallel::on_root(comm_, [&] { return artifacts::mesh_hash(input_.mesh.data); });
   parallel::broadcast(comm_, mesh_hash_);
-  case_hash_ = parallel::on_root(comm_, [&] { return case_hash(input_); });
+  case_hash_ = parallel::on_root(comm_, [&] { return input_.inputs.fingerprint(); });
   parallel::broadcast(comm_, case_hash_);
   if (!continued()) refuse_tables_that_end(comm_, case_, grid_, end_step());
   prepare_folder();
@@ -211,32 +206,11 @@ void Run::prepare_folder() {
 }
 
 void Run::distribute() {
-  mesh_ = distributed::distribute(input_.mesh.data, comm_);
-  problem_.emplace(mesh_, artifacts::problem_input(case_));
-  monitors_.emplace(*problem_);
-  fields_.emplace(*problem_, case_);
+  posed_.pose(input_, comm_);
   log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
                          plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
   if (problem_->input().wall)
     for (const auto& line : problem_->wall_model().notes()) log_->info(line);
-}
-
-// Fields and flows of the outlets, at time zero. A Windkessel that names no initial pressure starts from the pressure
-// that its face has there.
-void Run::start_from(const fs::path& file) {
-  const auto outlets =
-      artifacts::read_start(file, mesh_, state_, mesh_hash_,
-                            "name another state in `start`, or find it anew: tunica prestress CASE --overwrite");
-  for (auto& outlet : state_.outlets) {
-    const auto found =
-        std::find_if(outlets.begin(), outlets.end(), [&](const auto& o) { return o.face == outlet.face(); });
-    if (found == outlets.end()) continue;
-    outlet.set_initial_flow(found->flow);
-    for (const auto& [face, condition] : case_.boundary)
-      if (const auto* rcr = std::get_if<bc::Rcr>(&condition); rcr && face == outlet.face() && !rcr->initial_pressure)
-        outlet.restore(std::array{found->flow, found->pressure - rcr->proximal * found->flow});
-  }
-  log_->info(fmt::format("starting from {}", file.string()));
 }
 
 std::string Run::command(const char* option) const {
@@ -247,7 +221,10 @@ std::string Run::command(const char* option) const {
 void Run::restore() {
   state_ = problem_->initial_state();
   if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
-  if (case_.start && !continued()) start_from(*case_.start);
+  if (case_.start && !continued()) {
+    start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
+    log_->info(fmt::format("starting from {}", case_.start->string()));
+  }
   if (!continued()) return;
   const fs::path name = request_.restart_file
                             ? *request_.restart_file
@@ -267,9 +244,9 @@ void Run::restore() {
   log_->info(fmt::format("continuing from {} after {}, t = {}", name.string(), plural(grid_.steps_done(), "step"),
                          time_text(grid_.time())));
   if (checkpoint.case_hash != case_hash_)
-    log_->warning(
-        "the case file, its prestress or its tuned outlets have changed since the checkpoint was written; the run goes "
-        "on with the new ones");
+    log_->warning(fmt::format(
+        "changed since the checkpoint was written: {}; the run goes on with what is there now",
+        parallel::on_root(comm_, [&] { return artifacts::changed_since(name, checkpoint.case_hash, input_.inputs); })));
 }
 
 void Run::open_outputs() {
@@ -281,7 +258,7 @@ void Run::open_outputs() {
   artifacts::ManifestHead head{.program = request_.program,
                                .case_file = request_.case_file,
                                .case_text = input_.text,
-                               .case_hash = case_hash_,
+                               .inputs = input_.inputs,
                                .mesh_hash = mesh_hash_,
                                .ranks = parallel::size(comm_),
                                .nodes = mesh_.global_nodes,
@@ -574,35 +551,21 @@ RunOutcome Run::compute() {
 
 }  // namespace
 
-std::uint64_t case_hash(const ReadCase& c) {
-  files::Hash hash;
-  hash.add(c.text.data(), c.text.size());
-  hash.add(c.outlets.data(), c.outlets.size());
-  if (const auto prestress = artifacts::prestress_hash(c.mesh.data); prestress != 0)
-    hash.add(&prestress, sizeof prestress);
-  return hash.value();
-}
-
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
   const parallel::StopSignals signals;  // one that comes while the run is prepared ends it before the first step
   return Run(c, request, comm, screen).steps();
 }
 
 RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
-  ReadCase c;
-  parallel::on_root(comm, [&] {
-    c.text = config::read_text(request.case_file);
-    auto parsed = case_file::read_case(request.case_file);
-    c.settings = std::move(parsed.value);
-    for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
-    for (const auto& warning : artifacts::unusual_outlets(c.settings)) c.warnings.push_back(format(warning));
-    c.mesh = artifacts::load_mesh(c.settings);
-  });
-  parallel::broadcast(comm, c.text);
-  if (parallel::rank(comm) != 0) c.settings = case_file::parse_case(c.text, request.case_file);
-  artifacts::name_faces(c.settings, c.mesh, comm);
-  c.outlets = artifacts::take_tuned_outlets(comm, c.settings);
-  return run_case(c, request, comm, screen);
+  return run_case(read_case(comm, request.case_file), request, comm, screen);
+}
+
+RunCheck check_run(MPI_Comm comm, const fs::path& case_file) {
+  const ReadCase c = read_case(comm, case_file);
+  RunCheck check{.report = c.mesh.report, .warnings = c.warnings};
+  check.warnings.insert(check.warnings.end(), c.mesh.warnings.begin(), c.mesh.warnings.end());
+  if (const std::string earlier = check_posed(c, comm); !earlier.empty()) check.report.push_back(earlier);
+  return check;
 }
 
 }  // namespace tunica::stages

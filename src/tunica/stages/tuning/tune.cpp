@@ -15,7 +15,6 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/log.hpp"
 #include "tunica/parallel/signals.hpp"
-#include "tunica/stages/run/run.hpp"
 #include "tunica/stages/tuning/tuning_report.hpp"
 
 namespace tunica::stages {
@@ -38,13 +37,15 @@ struct Plan {
 };
 
 /// The one lumen face with a flow condition. Adds to `problems` what else stands in the way.
-std::string find_inlet(const case_file::Case& c, const mesh::MeshData& mesh, std::vector<Problem>& problems) {
+std::string find_inlet(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces,
+                       std::vector<Problem>& problems) {
   std::vector<std::string> inlets;
   const auto& shares = c.outlets->fractions;
   for (const auto& [name, condition] : c.boundary) {
-    const auto face =
-        std::find_if(mesh.faces.begin(), mesh.faces.end(), [&, &n = name](const auto& f) { return f.name == n; });
-    if (face == mesh.faces.end() || mesh.regions[face->region].kind != mesh::RegionKind::lumen) continue;
+    const bool of_lumen = std::any_of(faces.begin(), faces.end(), [&, &n = name](const auto& face) {
+      return face.name == n && face.field == bc::Field::lumen;
+    });
+    if (!of_lumen) continue;
     if (std::holds_alternative<bc::Flow>(condition))
       inlets.push_back(name);
     else if (!std::holds_alternative<bc::NoSlip>(condition) &&
@@ -59,6 +60,14 @@ std::string find_inlet(const case_file::Case& c, const mesh::MeshData& mesh, std
   return "";
 }
 
+/// A ramp belongs to runs that start from rest; the tuning looks at the periodic state.
+bc::Waveform inflow_without_ramp(const case_file::Case& c, const std::string& inlet) {
+  const auto at = std::find_if(c.boundary.begin(), c.boundary.end(), [&](const auto& b) { return b.first == inlet; });
+  auto flow = std::get<bc::Flow>(at->second);
+  flow.course.ramp_time = 0;
+  return bc::inflow(flow);
+}
+
 /// One `tunica tune`. Its member functions are collective.
 class Tuning {
  public:
@@ -68,7 +77,6 @@ class Tuning {
 
  private:
   void read();
-  void find_inflow();
   void prepare_folder();
   void remove_earlier();
 
@@ -147,51 +155,37 @@ void Tuning::read() {
       throw InputError(request_.case_file.string(), "has no section `outlets`",
                        "add `outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {<outlet>: 1}}`");
     case_.mesh = artifacts::load_mesh(case_.settings);
-    find_inflow();
+    case_.inputs = artifacts::run_inputs(case_.text, request_.case_file);
   });
   parallel::broadcast(comm_, case_.text);
   if (parallel::rank(comm_) != 0) case_.settings = case_file::parse_case(case_.text, request_.case_file);
   artifacts::name_faces(case_.settings, case_.mesh, comm_);
   if (request_.directory) case_.settings.outlets->output = *request_.directory;
+  parallel::on_root(comm_, [&] {
+    TuningBasis basis = tuning_basis(case_.settings, artifacts::faces_of(case_.mesh.data));
+    inlet_ = basis.inlet;
+    inflow_ = std::move(basis.inflow);
+    period_ = basis.period;
+    steps_per_cycle_ = basis.steps_per_cycle;
+  });
   parallel::broadcast(comm_, inlet_);
   parallel::broadcast(comm_, period_);
-  const double step = settings().step.value_or(period_ / default_steps);
-  steps_per_cycle_ = static_cast<int>(std::ceil(period_ / step * (1 - 1e-9)));
-  if (steps_per_cycle_ < fewest_steps)
-    throw InputError("outlets.step", fmt::format("leaves {} steps for a period of {:.4g} s", steps_per_cycle_, period_),
-                     fmt::format("give at most a {}th of the period, or leave it out", fewest_steps));
-}
-
-// A ramp belongs to runs that start from rest; the tuning looks at the periodic state.
-void Tuning::find_inflow() {
-  std::vector<Problem> problems;
-  inlet_ = find_inlet(case_.settings, case_.mesh.data, problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
-  for (auto& [face, condition] : case_.settings.boundary)
-    if (auto* flow = std::get_if<bc::Flow>(&condition)) {
-      flow->course.ramp_time = 0;
-      inflow_ = bc::inflow(*flow);
-    }
-  if (!inflow_->period())
-    problems.push_back({"boundary." + inlet_, "the flow is not periodic", "give it as a periodic `table`"});
-  else if (inflow_->mean() <= 0)
-    problems.push_back({"boundary." + inlet_,
-                        fmt::format("the mean flow of {:.4g} m^3/s leaves the vessel", -inflow_->mean()),
-                        "turn it round by `positive: outflow`"});
-  if (!problems.empty()) throw InputError(std::move(problems));
-  period_ = *inflow_->period();
+  parallel::broadcast(comm_, steps_per_cycle_);
 }
 
 void Tuning::prepare_folder() {
   parallel::on_root(comm_, [&] {
     report_.folder = folder();
     report_.program = request_.program;
-    report_.case_hash = case_hash(case_);
+    report_.inputs = case_.inputs;
     lock_ = files::FolderLock(folder());
     const auto earlier = find_tuning(folder());
-    report_is_damaged_ = earlier && !earlier->case_hash;
-    if (earlier && earlier->case_hash.value_or(report_.case_hash) != report_.case_hash && !request_.overwrite)
-      throw InputError(folder().string(), "holds the tuning of another case, or of this one before it was changed",
+    report_is_damaged_ = earlier && !earlier->inputs;
+    const auto known = earlier ? earlier->inputs.value_or(report_.inputs) : report_.inputs;
+    if (known != report_.inputs && !request_.overwrite)
+      throw InputError(folder().string(),
+                       fmt::format("holds the tuning of another case, or of this one before it was changed: {}",
+                                   artifacts::text_of(artifacts::difference(known, report_.inputs))),
                        "replace it by --overwrite, or name another folder by --output");
     if (!earlier && !request_.overwrite && fs::exists(settings().file()))
       throw InputError(settings().file().string(), "is there already, and no tuning beside it that it came from",
@@ -251,10 +245,10 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   c.time->adaptive.reset();
   c.output.every = steps;
   c.output.checkpoint_every = std::max(steps_per_cycle_ / 10, 1);
-  run.text += fmt::format("\n# {}: {} of {} steps, R_T = {:.5e} Pa s/m^3, C_T = {:.5e} m^3/Pa, P_c =", name, steps,
-                          steps_per_cycle_, plan.totals.resistance, plan.totals.compliance);
-  for (const double p : plan.stored) run.text += fmt::format(" {:.5e}", p);
-  run.text += " Pa\n";
+  run.inputs.settings["tuning"] =
+      fmt::format("{}: {} of {} steps, R_T = {:.5e} Pa s/m^3, C_T = {:.5e} m^3/Pa, P_c =", name, steps,
+                  steps_per_cycle_, plan.totals.resistance, plan.totals.compliance);
+  for (const double p : plan.stored) run.inputs.settings["tuning"] += fmt::format(" {:.5e}", p);
   return run;
 }
 
@@ -280,7 +274,7 @@ Tuning::Start Tuning::start_of_run(const fs::path& results, const ReadCase& inpu
     log_->warning(fmt::format("{}: the manifest {}; the run is computed anew", results.string(), earlier->damage));
     return {.done = false, .restart = false, .overwrite = true};
   }
-  if (earlier->case_hash != case_hash(input) || earlier->mesh_hash != artifacts::mesh_hash(input.mesh.data)) {
+  if (earlier->case_hash != input.inputs.fingerprint() || earlier->mesh_hash != artifacts::mesh_hash(input.mesh.data)) {
     if (!request_.overwrite)
       throw InputError(results.string(), "holds a run with another mesh, inflow or prestress",
                        "replace it by --overwrite, or name another folder by --output");
@@ -314,7 +308,7 @@ bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
   if (start.done) return true;
   run.restart = start.restart;
   run.overwrite = start.overwrite;
-  signal_ = run_case(input, run, comm_, screen_).signal;
+  signal_ = request_.run_case(input, run, comm_, screen_).signal;
   return signal_ == 0;
 }
 
@@ -459,6 +453,27 @@ int Tuning::look_for_outlets() {
 }
 
 }  // namespace
+
+TuningBasis tuning_basis(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces) {
+  std::vector<Problem> problems;
+  const std::string inlet = find_inlet(c, faces, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  TuningBasis basis{.inlet = inlet, .inflow = inflow_without_ramp(c, inlet)};
+  if (!basis.inflow.period())
+    throw InputError("boundary." + inlet, "the flow is not periodic", "give it as a periodic `table`");
+  if (basis.inflow.mean() <= 0)
+    throw InputError("boundary." + inlet,
+                     fmt::format("the mean flow of {:.4g} m^3/s leaves the vessel", -basis.inflow.mean()),
+                     "turn it round by `positive: outflow`");
+  basis.period = *basis.inflow.period();
+  const double step = c.outlets->step.value_or(basis.period / default_steps);
+  basis.steps_per_cycle = static_cast<int>(std::ceil(basis.period / step * (1 - 1e-9)));
+  if (basis.steps_per_cycle < fewest_steps)
+    throw InputError("outlets.step",
+                     fmt::format("leaves {} steps for a period of {:.4g} s", basis.steps_per_cycle, basis.period),
+                     fmt::format("give at most a {}th of the period, or leave it out", fewest_steps));
+  return basis;
+}
 
 int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) {
   const parallel::StopSignals signals;

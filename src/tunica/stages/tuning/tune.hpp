@@ -6,8 +6,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/bc/check.hpp"
+#include "tunica/bc/waveform.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/stages/run_case.hpp"
 
 namespace tunica::stages {
 
@@ -16,7 +22,19 @@ struct TuneRequest {
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results of another case in the folder may be replaced
   artifacts::ProgramVersion program;
+  RunCase run_case;  ///< computes the probe and the cycles
 };
+
+/// What a tuning goes out from.
+struct TuningBasis {
+  std::string inlet;    ///< the one face of the lumen with a flow
+  bc::Waveform inflow;  ///< without its ramp
+  double period = 0;    ///< s
+  int steps_per_cycle = 0;
+};
+/// Looks at a case with `outlets` on these faces before anything is computed; `c.boundary` has no patterns any more.
+/// Throws InputError where there is no one inlet with a periodic inflow, or a cycle has too few steps.
+TuningBasis tuning_basis(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces);
 
 /// Finds the outlets and writes into the folder of results:
 /// - probe/, cycle_1/, ...: the runs in 3D, as `tunica run` leaves them;

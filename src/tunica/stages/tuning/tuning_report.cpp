@@ -62,7 +62,7 @@ ordered_json outlets_json(const TuningCycle& cycle, const case_file::TuningCase&
 void write_json(const TuningReport& report, const case_file::TuningCase& outlets) {
   ordered_json json;
   json["program"] = {{"version", report.program.version}, {"commit", report.program.commit}};
-  json["case_hash"] = report.case_hash;
+  json["inputs"] = artifacts::to_json(report.inputs);
   json["status"] = report.status;
   json["targets"] = json_of(zerod::Pressures{outlets.systolic, outlets.diastolic, outlets.mean()});
   json["tolerance"] = outlets.tolerance;
@@ -169,10 +169,11 @@ void write_report(const TuningReport& report, const case_file::Case& c) {
 std::optional<EarlierTuning> find_tuning(const fs::path& folder) {
   std::ifstream in(folder / report_file);
   if (!in) return std::nullopt;
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("case_hash") || !json["case_hash"].is_number_unsigned())
+  try {
+    return EarlierTuning{artifacts::inputs_from_json(nlohmann::ordered_json::parse(in).at("inputs"))};
+  } catch (const nlohmann::json::exception&) {
     return EarlierTuning{};
-  return EarlierTuning{json["case_hash"].get<std::uint64_t>()};
+  }
 }
 
 }  // namespace tunica::stages

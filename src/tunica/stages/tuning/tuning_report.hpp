@@ -33,7 +33,7 @@ struct TuningCycle {
 struct TuningReport {
   std::filesystem::path folder;
   artifacts::ProgramVersion program;
-  std::uint64_t case_hash = 0;
+  artifacts::Inputs inputs;            ///< of the case
   std::string status = "running";      ///< or converged, not converged, stopped, failed
   std::optional<zerod::Vessel> probe;  ///< as the probe found it
   std::vector<TuningCycle> cycles;
@@ -45,7 +45,7 @@ void write_report(const TuningReport& report, const case_file::Case& c);
 
 /// What an earlier tuning.json tells.
 struct EarlierTuning {
-  std::optional<std::uint64_t> case_hash;  ///< none when the file is cut off or altered
+  std::optional<artifacts::Inputs> inputs;  ///< none when the file is cut off or altered
 };
 /// None when there is no such file.
 std::optional<EarlierTuning> find_tuning(const std::filesystem::path& folder);
