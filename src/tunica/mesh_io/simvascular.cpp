@@ -379,7 +379,7 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   std::vector<mesh::PlacedName> names;
-  for (const auto& path : surfaces) names.push_back({path.stem().string(), path.string()});
+  for (const auto& path : surfaces.files) names.push_back({path.stem().string(), path.string()});
   for (auto& problem : mesh::check_names(names, "face")) problems.push_back(std::move(problem));
   if (!problems.empty()) throw InputError(std::move(problems));
   data.faces = std::move(faces);

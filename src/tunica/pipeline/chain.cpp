@@ -300,7 +300,7 @@ OwnRecord::OwnRecord(const std::string& name, const fs::path& file, const fs::pa
 }
 
 void OwnRecord::begin() {
-  create_folder(folder_);
+  files::make_folder(folder_);
   record_.status = "running";
   write_record(folder_, record_);
 }

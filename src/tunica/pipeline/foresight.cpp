@@ -9,8 +9,11 @@
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/compared_law.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/case/fibres_case.hpp"
+#include "tunica/case/mesh_settings.hpp"
+#include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/meshing/vessel_roles.hpp"
@@ -20,6 +23,7 @@
 #include "tunica/stages/post/post.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/tuning/tune.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::pipeline {
 
@@ -122,7 +126,7 @@ void check_region_names(const case_file::Case& c, Problems& problems) {
   };
   if (c.wall) add("wall.regions.", c.wall->regions);
   if (c.fibres) add("fibres.regions.", c.fibres->regions);
-  for (const auto& [law, compared] : c.compare) add(fmt::format("compare.{}.regions.", law), compared.regions);
+  for (const auto& [law, compared] : c.compare) add(fmt::format("compare.{}.regions.", law), compared->regions);
   for (const auto* tears : {c.fibres && c.fibres->tears ? &*c.fibres->tears : nullptr,
                             c.post && c.post->lumens ? &*c.post->lumens : nullptr})
     if (tears) {
