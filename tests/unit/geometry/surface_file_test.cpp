@@ -64,8 +64,8 @@ TEST(SurfaceFile, SaysWhatCannotBeRead) {
 }
 
 TEST(SurfaceFile, SaysWhereItCannotWrite) {
-  const auto text = message_of<InputError>([] { write_spots({{{{1, 2, 3}}, "x"}}, "/nowhere/spots.vtp"); });
-  EXPECT_TRUE(says(text, "cannot be written")) << text;
+  const auto text = message_of<SolverError>([] { write_spots({{{{1, 2, 3}}, "x"}}, "/nowhere/spots.vtp"); });
+  EXPECT_TRUE(says(text, "cannot write /nowhere/spots.vtp: No such file or directory")) << text;
 }
 
 // --- files that are damaged, or lie about themselves ----------------------------------------------------------------
