@@ -28,7 +28,7 @@ class Endings : public Program {
   }
   /// A shell command in the folder, with the program as $T.
   int shell(const std::string& command) const {
-    const std::string text = fmt::format("cd {} && T={} && {}", folder_.string(), TUNICA_PROGRAM, command);
+    const std::string text = fmt::format("cd {} || exit 9; T={}; {}", folder_.string(), TUNICA_PROGRAM, command);
     const pid_t child = fork();
     if (child == 0) {
       execl("/bin/bash", "bash", "-c", text.c_str(), nullptr);
@@ -92,7 +92,7 @@ TEST_F(Endings, AHangUpLeavesACheckpoint) {
 TEST_F(Endings, AnIgnoredHangUpDoesNotEndTheRun) {
   write_case(60);
   EXPECT_EQ(shell("(trap '' HUP; exec $T run case.yaml > out.txt 2>&1) & p=$!; "
-                  "until [ -s results/steps.csv ]; do sleep 0.02; done; kill -HUP $p; wait $p"),
+                  "for k in $(seq 500); do [ -s results/steps.csv ] && break; sleep 0.02; done; kill -HUP $p; wait $p"),
             0)
       << printed();
   EXPECT_EQ(status(), "completed");
@@ -320,7 +320,7 @@ TEST_F(ChainEndings, ASteadyFlowThatIsStoppedGoesOn) {
   EXPECT_EQ(nlohmann::json::parse(read("p/prestress.json"))["status"], "stopped");
   const std::string command = command_printed();
   EXPECT_NE(command.find("--keep-flow"), std::string::npos) << printed();
-  write("case.yaml", std::regex_replace(read("case.yaml"), std::regex("tolerance: 1e-12"), "tolerance: 1"));
+  write("case.yaml", std::regex_replace(read("case.yaml"), std::regex("tolerance: 1e-12"), "tolerance: 0.5"));
   EXPECT_EQ(tunica(command), 0) << printed();
   expect_printed("the steady flow goes on from p/flow_checkpoints/step_");
 }

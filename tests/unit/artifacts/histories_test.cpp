@@ -51,7 +51,7 @@ TEST(CsvTable, TellsLostDamagedAndRepeatedLines) {
   EXPECT_EQ(damage("1,1\n2,2\n5,5\n", 2), "");
   EXPECT_EQ(damage("1,1\n5,5\n", 5, Lines::for_some_steps), "");
   EXPECT_EQ(damage("1,1\n?x\n3,3\n", 3),
-            "t.csv:3: is no line of 2 numbers, and is dropped\nt.csv: the line of step 2 is missing\n");
+            "t.csv: the line of step 2 is missing\nt.csv:3: is no line of 2 numbers, and is dropped\n");
   EXPECT_EQ(slurp(folder.path() / "t.csv"), "step,a\n1,1\n3,3\n");
   EXPECT_EQ(damage("1,1\n2,2,2\n2,2\n2,9\n3,3\n", 3),
             "t.csv:3: is no line of 2 numbers, and is dropped\nt.csv:5: repeats step 2, and is dropped\n");
