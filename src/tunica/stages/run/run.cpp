@@ -56,7 +56,8 @@ class Run {
   artifacts::StepGrid make_grid(const artifacts::StepGrid::Position* position) const;
 
   void prepare_folder();
-  void distribute();
+  void pose();
+  void describe_problem();
   void restore();
   void open_outputs();
 
@@ -121,13 +122,14 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   parallel::broadcast(comm_, mesh_hash_);
   case_hash_ = parallel::on_root(comm_, [&] { return input_.inputs.fingerprint(); });
   parallel::broadcast(comm_, case_hash_);
+  pose();
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
   if (!case_.title.empty()) log_->info(case_.title);
   for (const auto& line : input_.mesh.report) log_->info(line);
   for (const auto& line : input_.warnings) log_->warning(line);
   for (const auto& line : input_.mesh.warnings) log_->warning(line);
-  distribute();
+  describe_problem();
   restore();
   open_outputs();
   progress_.set_up_seconds = MPI_Wtime() - started_;
@@ -174,21 +176,23 @@ void Run::prepare_folder() {
   parallel::broadcast(comm_, folder_has_results_);
 }
 
-void Run::distribute() {
+// What can be refused is refused here, before the folder is touched and earlier results in it are removed.
+void Run::pose() {
   posed_.pose(input_, comm_);
+  state_ = problem_->initial_state();
+  if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
+  if (case_.start && !continued()) start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
+}
+
+void Run::describe_problem() {
   log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
                          plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
   if (problem_->input().wall)
     for (const auto& line : problem_->wall_model().notes()) log_->info(line);
+  if (case_.start && !continued()) log_->info(fmt::format("starting from {}", case_.start->string()));
 }
 
 void Run::restore() {
-  state_ = problem_->initial_state();
-  if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
-  if (case_.start && !continued()) {
-    start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
-    log_->info(fmt::format("starting from {}", case_.start->string()));
-  }
   if (!continued()) return;
   std::string name = parallel::on_root(comm_, [&] {
     if (request_.restart_file) return request_.restart_file->string();
