@@ -194,6 +194,7 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const f
       throw InputError(c.output.string(), "holds a result already", "give --overwrite, or another `output`");
     loaded = artifacts::load_meshes(c.meshes, {});
     for (const auto& line : loaded.warnings) say("warning: " + line);
+    face_roles(c, loaded.data);  // throws before anything is written
     request.before_work();
   });
   parallel::broadcast(comm, text);
