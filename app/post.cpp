@@ -15,10 +15,10 @@ namespace tunica::app {
 
 namespace {
 
-/// For a case with stages, the stage `post` alone on what the others have left.
+/// For a case whose results lie in stages, the stage `post` alone on what the others have left.
 int post(const stages::post::PostRequest& request) {
   const bool elsewhere = request.results || request.output;
-  if (!elsewhere && pipeline::is_chain(request.case_file, MPI_COMM_WORLD)) {
+  if (!elsewhere && pipeline::lies_in_stages(request.case_file, MPI_COMM_WORLD)) {
     pipeline::ChainRequest chain{.case_file = request.case_file};
     chain.only = "post";
     chain.overwrite = request.overwrite;

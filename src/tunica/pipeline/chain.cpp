@@ -279,6 +279,18 @@ bool is_chain(const fs::path& case_file, MPI_Comm comm) {
   return chain;
 }
 
+bool lies_in_stages(const fs::path& case_file, MPI_Comm comm) {
+  if (!is_chain(case_file, comm)) return false;
+  bool apart = parallel::on_root(comm, [&] {
+    const config::Document document(config::read_text(case_file), case_file.string());
+    const std::string given = document.text("output.directory");
+    const fs::path results = case_file.parent_path() / (given.empty() ? "results" : given);
+    return !document.has("meshes") || !fs::exists(results / "manifest.json");
+  });
+  parallel::broadcast(comm, apart);
+  return apart;
+}
+
 bool is_case(const fs::path& file, MPI_Comm comm) {
   bool found =
       parallel::on_root(comm, [&] { return config::Document(config::read_text(file), file.string()).has("analysis"); });

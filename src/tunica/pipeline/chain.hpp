@@ -32,6 +32,11 @@ struct ChainRequest {
 /// case. Throws InputError when the file cannot be read as YAML. Collective.
 bool is_chain(const std::filesystem::path& case_file, MPI_Comm comm);
 
+/// Do the results of such a case lie in folders of its stages? Not where the manifest of a run of the meshes that it
+/// names lies in its folder of results itself: that was made by hand, or the file is that of a single stage. As
+/// is_chain().
+bool lies_in_stages(const std::filesystem::path& case_file, MPI_Comm comm);
+
 /// Is it a case file at all, in contrast to that of a single stage? As is_chain().
 bool is_case(const std::filesystem::path& file, MPI_Comm comm);
 

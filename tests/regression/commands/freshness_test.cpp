@@ -167,6 +167,25 @@ TEST_F(Freshness, PostAndReportTakeTheCaseOfAllStages) {
   expect_printed("add `report: {}`");
 }
 
+TEST_F(Freshness, FiguresOfARunAloneAreMadeBesideIt) {
+  write_coupled("");
+  ASSERT_EQ(tunica("run a/case.yaml"), 0) << printed();
+  write_coupled("post: {spacing: 5 mm}\n");
+  ASSERT_EQ(tunica("post a/case.yaml"), 0) << printed();
+  EXPECT_TRUE(fs::exists(folder_ / "a/results/post/post.json"));
+}
+
+/// What is refused leaves everything as it was.
+TEST_F(Freshness, ARefusedRunKeepsEarlierResults) {
+  write_coupled("");
+  ASSERT_EQ(tunica("run a/case.yaml"), 0) << printed();
+  const std::string before = read("a/results/faces.csv");
+  write_coupled("start: q.checkpoint\n");
+  EXPECT_EQ(tunica("run a/case.yaml --overwrite"), 2);
+  EXPECT_FALSE(before.empty());
+  EXPECT_EQ(read("a/results/faces.csv"), before);
+}
+
 TEST_F(Freshness, DirectionsMadeByTheirOwnCommandAreTaken) {
   write_coupled("fibres: {inlet: [wall_inlet, lumen_inlet], outer: wall_outer, mean_angle: 35 deg, output: own}\n");
   write("a/fibres.yaml", fmt::format("meshes: {{tube: {}, interface: {{lumen: lumen_wall, wall: wall_inner}}}}\n"

@@ -203,6 +203,7 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const f
                        {"meshes.yaml", "report.json", "wall/mesh-complete.mesh.vtu", "wall/mesh-surfaces/face.vtp"});
     loaded = artifacts::load_meshes(c.meshes, {});
     for (const auto& line : loaded.warnings) say("warning: " + line);
+    face_roles(c, loaded.data);  // throws before anything is written
     request.before_work();
   });
   parallel::broadcast(comm, text);

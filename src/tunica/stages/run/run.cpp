@@ -64,8 +64,9 @@ class Run {
 
   void prepare_folder();
   void try_outputs() const;
-  void distribute();
   std::string command(const char* option) const;
+  void pose();
+  void describe_problem();
   void restore();
   void open_outputs();
 
@@ -136,6 +137,7 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   case_hash_ = parallel::on_root(comm_, [&] { return input_.inputs.fingerprint(); });
   parallel::broadcast(comm_, case_hash_);
   if (!continued()) refuse_tables_that_end(comm_, case_, grid_, end_step());
+  pose();
   prepare_folder();
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
@@ -143,7 +145,7 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   for (const auto& line : input_.mesh.report) log_->info(line);
   for (const auto& line : input_.warnings) log_->warning(line);
   for (const auto& line : input_.mesh.warnings) log_->warning(line);
-  distribute();
+  describe_problem();
   restore();
   open_outputs();
   progress_.set_up_seconds = MPI_Wtime() - started_;
@@ -205,12 +207,20 @@ void Run::prepare_folder() {
   parallel::broadcast(comm_, folder_has_results_);
 }
 
-void Run::distribute() {
+// What can be refused is refused here, before the folder is touched and earlier results in it are removed.
+void Run::pose() {
   posed_.pose(input_, comm_);
+  state_ = problem_->initial_state();
+  if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
+  if (case_.start && !continued()) start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
+}
+
+void Run::describe_problem() {
   log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
                          plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
   if (problem_->input().wall)
     for (const auto& line : problem_->wall_model().notes()) log_->info(line);
+  if (case_.start && !continued()) log_->info(fmt::format("starting from {}", case_.start->string()));
 }
 
 std::string Run::command(const char* option) const {
@@ -219,12 +229,6 @@ std::string Run::command(const char* option) const {
 }
 
 void Run::restore() {
-  state_ = problem_->initial_state();
-  if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
-  if (case_.start && !continued()) {
-    start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
-    log_->info(fmt::format("starting from {}", case_.start->string()));
-  }
   if (!continued()) return;
   const fs::path name = request_.restart_file
                             ? *request_.restart_file
