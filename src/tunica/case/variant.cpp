@@ -33,10 +33,15 @@ std::string variant(const VariantRequest& request) {
 }
 
 void write_variant(const VariantRequest& request) {
-  if (!request.overwrite && std::filesystem::exists(request.output))
+  std::error_code error;
+  const bool there = std::filesystem::exists(request.output, error);
+  if (error) throw InputError(request.output.string(), error.message(), "give a name that a file can have");
+  if (!request.overwrite && there)
     throw InputError(request.output.string(), "is there already", "give another name, or --overwrite");
   const std::string text = variant(request);
-  if (const auto folder = request.output.parent_path(); !folder.empty()) std::filesystem::create_directories(folder);
+  if (const auto folder = request.output.parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(request.output.string(), "cannot be written: " + error.message(), "give another place");
   files::write_atomically(request.output, text);
 }
 

@@ -29,7 +29,8 @@ std::string Range::text(const Dimension& dimension) const {
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (!std::filesystem::is_regular_file(file) || !(text << stream.rdbuf()))
+  std::error_code ignored;  // not there, not readable and too long a name come to the same
+  if (!std::filesystem::is_regular_file(file, ignored) || !(text << stream.rdbuf()))
     throw InputError(file.string(), "file does not exist, is empty or cannot be read",
                      "check its name and permissions");
   return text.str();

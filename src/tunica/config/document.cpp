@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "tunica/config/yaml_guard.hpp"
+
 namespace tunica::config {
 
 namespace {
@@ -14,6 +16,7 @@ namespace fs = std::filesystem;
 
 YAML::Node load(const std::string& yaml, const std::string& name) {
   try {
+    refuse_unreadable_yaml(yaml, name);
     const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
     if (documents.size() > 1)
       throw InputError(name, fmt::format("holds {} YAML documents", documents.size()),
@@ -177,7 +180,14 @@ Document Document::part(std::string_view path) const {
 void Document::set(std::string_view path, const Document& value) {
   YAML::Node at;
   at.reset(*node_);
-  for (const auto& key : keys_of(path)) at.reset(at[key]);
+  for (const auto& key : keys_of(path)) {
+    // yaml-cpp would turn a list into a section, and refuse a scalar without a name.
+    if (at.IsScalar() || at.IsSequence())
+      throw InputError(std::string(path),
+                       fmt::format("`{}` can be no key of a {}", key, at.IsScalar() ? "value" : "list"),
+                       "give the section or list above it as a whole");
+    at.reset(at[key]);
+  }
   at = YAML::Clone(*value.node_);
 }
 

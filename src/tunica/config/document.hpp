@@ -20,7 +20,7 @@ namespace tunica::config {
 class Document {
  public:
   Document();
-  /// Throws InputError when the text is no YAML; `name` is for its message.
+  /// Throws InputError when the text is no YAML, or contains itself, or is too deep or large; `name` is for its message.
   explicit Document(const std::string& yaml, const std::string& name = "case file");
   Document(const Document& other);
   Document& operator=(const Document& other);
@@ -32,7 +32,7 @@ class Document {
   /// What is below a key, empty when there is nothing.
   Document part(std::string_view path) const;
 
-  /// Makes the sections on the way when they are missing.
+  /// Makes the sections on the way when they are missing. Throws InputError where a value or list stands in the way.
   void set(std::string_view path, const Document& value);
   void set(std::string_view path, const std::string& scalar);
   void remove(std::string_view path);

@@ -413,6 +413,10 @@ class Reader {
 
   std::optional<Value> location(const Field& field, const std::string& text, const std::string& path, int line) {
     const fs::path full = (origin_.folder / text).lexically_normal();
+    if (const std::string what = unusable_name(text, full); !what.empty()) {
+      error(path, line, what, "give a shorter, plain name");
+      return std::nullopt;
+    }
     const bool folder = field.kind == Kind::folder;
     std::error_code ignored;  // not there and not readable come to the same
     const bool found = folder ? fs::is_directory(full, ignored) : fs::is_regular_file(full, ignored);
@@ -423,6 +427,21 @@ class Reader {
       return std::nullopt;
     }
     return full.string();
+  }
+
+  /// Why no file system can have this name; empty when nothing is wrong with it. Files with longer names are made in
+  /// folders, so something is left for them.
+  static std::string unusable_name(const std::string& text, const fs::path& full) {
+    constexpr std::size_t longest_part = 255, longest_whole = 3800;  // bytes
+    for (const fs::path& part : fs::path(text))
+      if (part.native().size() > longest_part)
+        return fmt::format("a file or folder name of {} bytes, `{}...`; at most {} are possible", part.native().size(),
+                           part.native().substr(0, 40), longest_part);
+    if (const auto size = fs::absolute(full).native().size(); size > longest_whole)
+      return fmt::format("a path of {} bytes, at most {} are possible", size, longest_whole);
+    const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::any_of(text.begin(), text.end(), control)) return "the name holds control characters";
+    return {};
   }
 
   static std::string similar_file(const fs::path& full) {

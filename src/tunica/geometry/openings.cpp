@@ -12,12 +12,14 @@
 #include <sstream>
 
 #include "tunica/base/error.hpp"
+#include "tunica/mesh_io/extent.hpp"
 
 namespace tunica::geometry {
 
 namespace {
 
-constexpr double planar_within = 0.2;  ///< of the radius of the opening
+constexpr std::size_t longest_line = 10'000;  ///< bytes, of a table of openings
+constexpr double planar_within = 0.2;         ///< of the radius of the opening
 
 struct RimShape {
   Point centre;
@@ -100,6 +102,20 @@ void add_wall_rims(const TriangleSurface& lumen, const TriangleSurface& outer, s
   }
 }
 
+/// A unit that is wrong by a factor of ten leaves a size that is still possible, but no aorta is that narrow or wide.
+void refuse_unlikely_diameter(const TriangleSurface& lumen, const std::vector<Opening>& openings) {
+  constexpr double narrowest = 4e-3, widest = 150e-3;  // m
+  double area = 0;
+  for (const auto& opening : openings) area = std::max(area, opening.area);
+  const double diameter = 2 * std::sqrt(area / M_PI);
+  if (diameter >= narrowest && diameter <= widest) return;
+  throw InputError(
+      "lumen surface",
+      fmt::format("its largest opening is {:.3g} mm wide, and its size is {}; an aorta is {:g} to {:g} mm wide",
+                  1e3 * diameter, mesh_io::size_text(lumen.points), 1e3 * narrowest, 1e3 * widest),
+      "correct length_unit, or the coordinates in the file");
+}
+
 void give_names(std::vector<Opening>& openings, const std::vector<NamedPlace>& names, std::vector<Problem>& problems) {
   std::sort(openings.begin(), openings.end(), [](const Opening& a, const Opening& b) { return a.area > b.area; });
   if (names.empty()) {
@@ -140,7 +156,9 @@ bool lies_in(const Opening& opening, const Point& x) {
 std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, double metres_per_unit) {
   const std::string remedy = "write a table with the columns name, centre_x, centre_y, centre_z";
   std::ifstream file(path);
-  if (!file) throw InputError(path.string(), "cannot be read", "check the path");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || !file)
+    throw InputError(path.string(), "cannot be read", "check the path");
   const auto cells = [](const std::string& line) {
     std::vector<std::string> result;
     std::istringstream stream(line);
@@ -156,7 +174,9 @@ std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, do
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
-    if (line.empty() || line[0] == '#') continue;
+    if (line.size() > longest_line || line.find('\0') != std::string::npos)
+      throw InputError(fmt::format("{}, line {}", path.string(), number), "is no line of a table", remedy);
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
     if (header.empty()) {
       header = cells(line);
       continue;
@@ -196,7 +216,9 @@ std::vector<Opening> find_openings(const TriangleSurface& lumen, const TriangleS
     openings.push_back({"", rim.centre, (1 / size) * rim.area, size, 0, loop, {}, 0});
   }
   if (openings.empty())
-    throw InputError("lumen surface", "has no openings", "cut it open at the inlet and the outlets");
+    throw InputError("lumen surface", fmt::format("has no openings; its size is {}", mesh_io::size_text(lumen.points)),
+                     "cut it open at the inlet and the outlets, or correct length_unit when that is not its size");
+  refuse_unlikely_diameter(lumen, openings);
   if (outer) add_wall_rims(lumen, *outer, openings, problems);
   for (auto& opening : openings) {
     opening.out_of_plane = largest_distance(lumen, opening.lumen, opening.centre, opening.normal);

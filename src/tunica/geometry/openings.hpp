@@ -36,7 +36,8 @@ std::vector<NamedPlace> read_opening_names(const std::filesystem::path& path, do
 /// Openings of the lumen surface, each with the rim of the outer surface (null: none) around it. A name goes to the
 /// opening that is nearest; without names they are called inlet (the largest one), outlet_1, outlet_2, ... by falling
 /// area. InputError, with all places, for rims without a counterpart or not around it, rims that are not planar within
-/// a fifth of their radius, names without an opening and openings without a name, and a surface without openings.
+/// a fifth of their radius, names without an opening and openings without a name, a surface without openings, and a
+/// largest opening that is narrower than 4 mm or wider than 150 mm.
 std::vector<Opening> find_openings(const TriangleSurface& lumen, const TriangleSurface* outer,
                                    const std::vector<NamedPlace>& names);
 

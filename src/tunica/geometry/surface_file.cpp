@@ -6,18 +6,19 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <new>
 
 #include "tunica/base/error.hpp"
+#include "tunica/geometry/surface_formats.hpp"
+#include "tunica/mesh_io/extent.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 #include "tunica/mesh_io/vtk_messages.hpp"
 
@@ -26,16 +27,6 @@ namespace tunica::geometry {
 namespace {
 
 constexpr const char* accepted = "give a .vtp, .stl, .ply or .obj file of triangles";
-
-TriangleSurface scaled(TriangleSurface surface, double metres_per_unit) {
-  for (auto& p : surface.points) p = metres_per_unit * p;
-  return surface;
-}
-
-[[noreturn]] void refuse_cells(const std::filesystem::path& path, std::int64_t others, std::int64_t cells) {
-  throw InputError(path.string(), fmt::format("{} of {} cells are no triangles", others, cells),
-                   "triangulate the surface, for example with ParaView's filter Triangulate");
-}
 
 TriangleSurface from_vtp(const std::filesystem::path& path) {
   const auto file = mesh_io::read_vtk_surface(path);
@@ -48,33 +39,48 @@ TriangleSurface from_vtp(const std::filesystem::path& path) {
     else
       ++others;
   }
-  if (others > 0) refuse_cells(path, others, std::ssize(file.types));
+  if (others > 0) refuse_polygons(path.string(), others, std::ssize(file.types));
   return surface;
 }
 
-template <class Reader>
-TriangleSurface from_vtk(const std::filesystem::path& path) {
-  vtkNew<Reader> reader;
-  const mesh_io::FirstVtkMessage message(reader.Get());
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!message.text().empty()) throw InputError(path.string(), "cannot be read: " + message.text(), accepted);
-  vtkPolyData* data = reader->GetOutput();
-  TriangleSurface surface;
-  surface.points.resize(data->GetNumberOfPoints());
-  for (std::int64_t p = 0; p < std::ssize(surface.points); ++p) data->GetPoint(p, surface.points[p].x);
-  std::int64_t others = data->GetNumberOfStrips();
-  for (vtkIdType c = 0; c < data->GetPolys()->GetNumberOfCells(); ++c) {
-    vtkIdType size = 0;
-    const vtkIdType* corner = nullptr;
-    data->GetPolys()->GetCellAtId(c, size, corner);
-    if (size == 3)
-      surface.triangles.push_back({corner[0], corner[1], corner[2]});
-    else
-      ++others;
+std::string whole_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::ifstream stream(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path, error) || !stream)
+    throw InputError(path.string(), "there is no such file, or it cannot be read", accepted);
+  std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (content.empty()) throw InputError(path.string(), "is empty", "export or copy the surface again");
+  return content;
+}
+
+TriangleSurface in_its_unit(const std::filesystem::path& path) {
+  auto extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".vtp") return from_vtp(path);
+  if (extension == ".stl") return read_stl(whole_file(path), path.string());
+  if (extension == ".ply") return read_ply(whole_file(path), path.string());
+  if (extension == ".obj") return read_obj(whole_file(path), path.string());
+  whole_file(path);  // a missing file comes before its kind
+  throw InputError(path.string(), fmt::format("'{}' is no known kind of surface file", extension), accepted);
+}
+
+/// Points of triangles; those of no triangle say nothing about the surface.
+std::vector<Point> used_points(const TriangleSurface& surface, const std::string& where) {
+  std::vector<bool> used(surface.points.size(), false);
+  for (const auto& t : surface.triangles)
+    for (const auto p : t) used[static_cast<std::size_t>(p)] = true;
+  std::vector<Point> points;
+  for (std::size_t p = 0; p < used.size(); ++p) {
+    if (!used[p]) continue;
+    const auto& x = surface.points[p];
+    if (!(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])))
+      throw InputError(where,
+                       fmt::format("the coordinates of point {} are not finite: ({}, {}, {})", p + 1, x[0], x[1], x[2]),
+                       "export the surface again");
+    points.push_back(x);
   }
-  if (others > 0) refuse_cells(path, others, data->GetNumberOfCells());
-  return surface;
+  return points;
 }
 
 void write(vtkPolyData* data, const std::filesystem::path& path) {
@@ -112,27 +118,25 @@ vtkNew<vtkStringArray> strings(const char* name, const std::vector<std::string>&
 
 }  // namespace
 
+void refuse_polygons(const std::string& where, std::int64_t others, std::int64_t cells) {
+  throw InputError(where, fmt::format("{} of {} cells are no triangles", others, cells),
+                   "triangulate the surface, for example with ParaView's filter Triangulate");
+}
+
 TriangleSurface read_surface(const std::filesystem::path& path, double metres_per_unit) {
   if (!(metres_per_unit > 0 && std::isfinite(metres_per_unit)))
     throw InputError(path.string(), fmt::format("length unit of {} m, must be positive", metres_per_unit),
                      "declare the length unit of the surface");
-  if (!std::filesystem::is_regular_file(path)) throw InputError(path.string(), "there is no such file", accepted);
-  auto extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
   TriangleSurface surface;
-  if (extension == ".vtp")
-    surface = from_vtp(path);
-  else if (extension == ".stl")
-    surface = from_vtk<vtkSTLReader>(path);
-  else if (extension == ".ply")
-    surface = from_vtk<vtkPLYReader>(path);
-  else if (extension == ".obj")
-    surface = from_vtk<vtkOBJReader>(path);
-  else
-    throw InputError(path.string(), fmt::format("'{}' is no known kind of surface file", extension), accepted);
+  try {
+    surface = in_its_unit(path);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string(), "needs more memory than this machine has", "give a coarser surface");
+  }
   if (surface.triangles.empty()) throw InputError(path.string(), "holds no triangles", accepted);
-  return scaled(std::move(surface), metres_per_unit);
+  for (auto& p : surface.points) p = metres_per_unit * p;
+  mesh_io::refuse_unlikely_size(used_points(surface, path.string()), metres_per_unit, path.string());
+  return surface;
 }
 
 void write_surface(const TriangleSurface& surface, const std::filesystem::path& path,

@@ -10,8 +10,8 @@
 namespace tunica::geometry {
 
 /// Reads a .vtp, .stl, .ply or .obj file of triangles; `metres_per_unit` > 0 is the length unit of its coordinates.
-/// InputError for a missing or damaged file, another kind of file, or cells other than triangles. What the triangles
-/// are like is checked by `mend_surface`.
+/// InputError for a missing or damaged file, another kind of file, cells other than triangles, coordinates that are not
+/// finite, and a size that no vessel has in that unit. What the triangles are like is checked by `mend_surface`.
 TriangleSurface read_surface(const std::filesystem::path& path, double metres_per_unit);
 
 /// Values at the points or triangles, by the array's name in the file.

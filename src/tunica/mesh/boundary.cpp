@@ -103,8 +103,42 @@ std::string list_names(std::span<const std::string> names) {
   return text;
 }
 
+namespace {
+
+/// Nodes of these triangles that lie where another one of them lies, within a thousandth of the shortest edge. Twins
+/// are meant to.
+std::vector<Vec3<double>> coinciding_nodes(const MeshData& data,
+                                           std::span<const std::array<std::int64_t, 3>> triangles) {
+  std::vector<std::int64_t> nodes;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& t : triangles)
+    for (int i = 0; i < 3; ++i) {
+      nodes.push_back(t[i]);
+      shortest = std::min(shortest, norm(data.points[t[i]] - data.points[t[(i + 1) % 3]]));
+    }
+  const auto& x = data.points;
+  std::sort(nodes.begin(), nodes.end(), [&](auto a, auto b) { return std::pair(x[a][0], a) < std::pair(x[b][0], b); });
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto twins = [&](std::int64_t a, std::int64_t b) {
+    const auto is = [&](const auto& pair) { return pair == std::pair(a, b) || pair == std::pair(b, a); };
+    return std::any_of(data.twins.begin(), data.twins.end(), is);
+  };
+  const double tolerance = 1e-3 * shortest;
+  std::vector<Vec3<double>> places;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (auto j = i + 1; j < nodes.size() && x[nodes[j]][0] - x[nodes[i]][0] <= tolerance; ++j)
+      if (norm(x[nodes[j]] - x[nodes[i]]) <= tolerance && !twins(nodes[i], nodes[j])) {
+        places.push_back(x[nodes[i]]);
+        break;
+      }
+  return places;
+}
+
+}  // namespace
+
 void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std::string& where) {
   std::vector<Problem> problems;
+  std::vector<std::array<std::int64_t, 3>> wrong;
   std::vector<std::int32_t> owner(boundary.triangles().size(), -1);
   for (std::int32_t f = 0; f < std::ssize(data.faces); ++f) {
     auto& face = data.faces[f];
@@ -114,6 +148,7 @@ void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std:
       const auto i = boundary.find(triangle);
       if (i < 0) {
         inside.push_back(mesh::centroid(data.points, triangle));
+        wrong.push_back(triangle);
       } else if (owner[i] >= 0) {
         twice.push_back(mesh::centroid(data.points, triangle));
         other = data.faces[owner[i]].name;
@@ -135,7 +170,18 @@ void orient_and_check_faces(MeshData& data, const Boundary& boundary, const std:
   }
   std::vector<Vec3<double>> unnamed;
   for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] < 0) unnamed.push_back(mesh::centroid(data.points, boundary.triangles()[i].nodes));
+    if (owner[i] < 0) {
+      wrong.push_back(boundary.triangles()[i].nodes);
+      unnamed.push_back(mesh::centroid(data.points, wrong.back()));
+    }
+  if (const auto places = coinciding_nodes(data, wrong); !places.empty())
+    problems.push_back(
+        {where,
+         fmt::format("{} nodes of the triangles below coincide with another node: parts of the mesh touch "
+                     "without being joined: {}",
+                     places.size(), list_places(places)),
+         "merge the duplicate nodes, for example with ParaView's filter Clean to Grid or by meshing the "
+         "parts together"});
   if (!unnamed.empty())
     problems.push_back({where,
                         fmt::format("{} of {} boundary triangles lie in no named face: {}", unnamed.size(),

@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/quality.hpp"
+#include "tunica/mesh_io/extent.hpp"
 #include "tunica/mesh_io/msh_file.hpp"
 
 namespace tunica::mesh_io {
@@ -27,7 +28,7 @@ std::string physical_name(const MshFile& file, int dimension, int entity, const 
   if (n != 1)
     throw InputError(where, fmt::format("{} is in {} physical groups, it must be in exactly 1", what, n),
                      "put each volume and boundary surface into one named physical group");
-  const auto name = file.physical_names.find({dimension, std::abs(tags->second[0])});
+  const auto name = file.physical_names.find({dimension, tags->second[0]});
   if (name == file.physical_names.end())
     throw InputError(where, fmt::format("{} is in physical group {}, which has no name", what, tags->second[0]),
                      "name the physical groups");
@@ -100,6 +101,7 @@ std::vector<Index> fill_points(const MshFile& file, double metres_per_unit, cons
     position[n] = std::ssize(data.points);
     data.points.push_back(x);
   }
+  refuse_unlikely_size(data.points, metres_per_unit, where);
   for (auto& t : data.tetrahedra)
     for (auto& n : t) n = position[n];
   return position;

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
+#include <new>
 #include <unordered_map>
 
 #include "tunica/base/error.hpp"
@@ -45,12 +48,13 @@ class Source {
     std::memcpy(&value, buffer, sizeof(T));
     return value;
   }
-  /// How many items follow; more than there are bytes left means that the file is damaged.
-  std::int64_t count() {
-    const auto n = size();
-    if (n < 0 || n > static_cast<std::int64_t>(bytes_.size() - at_)) damaged("a count is out of range");
-    return n;
+  /// How many items follow, of that many numbers each and, where the file is binary, that many bytes; more than the
+  /// file has room for means that it is damaged.
+  std::int64_t count(std::int64_t numbers, std::int64_t bytes) {
+    return checked_count(size(), binary ? bytes : 2 * numbers);
   }
+  /// The same in sections that are text in binary files, too.
+  int text_count(std::int64_t numbers) { return static_cast<int>(checked_count(text<int>(), 2 * numbers)); }
   std::string word() {
     skip_space();
     const auto begin = at_;
@@ -72,6 +76,15 @@ class Source {
     if (end == std::string::npos) damaged("its end is missing");
     at_ = end + 4 + section.size();
   }
+  /// What was counted must be all that the section holds.
+  void expect_end_of(const std::string& section) {
+    const auto begin = at_;
+    if (word() == "$End" + section) return;
+    at_ = begin;
+    damaged("it holds more, or less, than its counts say");
+  }
+  std::size_t place() const { return at_; }
+  void go_to(std::size_t place) { at_ = place; }
   bool at_end() {
     skip_space();
     return at_ >= bytes_.size();
@@ -81,8 +94,19 @@ class Source {
     throw InputError(where_, fmt::format("section ${} is damaged at byte {}: {}", section_, at_, what),
                      "write the file again from Gmsh, as version 4.1");
   }
+  [[noreturn]] void out_of_range(const std::string& what, std::int64_t value) const {
+    damaged(fmt::format("{} {} is out of range", what, value));
+  }
   [[noreturn]] void refuse(const std::string& what, const std::string& remedy) const {
     throw InputError(where_, what, remedy);
+  }
+
+  std::int64_t checked_count(std::int64_t n, std::int64_t bytes_each) const {
+    const auto left = static_cast<std::int64_t>(bytes_.size() - at_);
+    // The last item of a text may lack the space after its last number.
+    if (n < 0 || n > (left + 1) / bytes_each)
+      damaged(fmt::format("a count of {} does not fit in the {} bytes that follow", n, left));
+    return n;
   }
 
  private:
@@ -111,25 +135,30 @@ void read_format(Source& in) {
   if (one != 0x01000000) in.damaged("the byte order cannot be told");
 }
 
+/// The number without the sign, which is the orientation.
+int group_number(const Source& in, int number) {
+  if (number == std::numeric_limits<int>::min()) in.out_of_range("the physical group", number);
+  return std::abs(number);
+}
+
 void read_physical_names(Source& in, MshFile& file) {
-  const int n = in.text<int>();  // this section is text in binary files, too
-  for (int i = 0; i < n; ++i) {
+  for (int n = in.text_count(3); n > 0; --n) {
     const int dimension = in.text<int>(), tag = in.text<int>();
-    file.physical_names[{dimension, tag}] = in.quoted();
+    file.physical_names[{dimension, group_number(in, tag)}] = in.quoted();
   }
 }
 
 void read_entities(Source& in, MshFile& file) {
   std::int64_t counts[4];
-  for (auto& n : counts) n = in.count();
+  for (auto& n : counts) n = in.count(5, 36);  // a point is the shortest: tag, position, number of groups
   for (int dimension = 0; dimension < 4; ++dimension)
     for (std::int64_t i = 0; i < counts[dimension]; ++i) {
       const int tag = in.integer();
       for (int d = 0; d < (dimension == 0 ? 3 : 6); ++d) in.real();  // position or bounding box
       auto& physical = file.physical_tags[{dimension, tag}];
-      for (auto n = in.count(); n > 0; --n) physical.push_back(in.integer());
+      for (auto n = in.count(1, 4); n > 0; --n) physical.push_back(group_number(in, in.integer()));
       if (dimension > 0)
-        for (auto n = in.count(); n > 0; --n) in.integer();  // bounding entities
+        for (auto n = in.count(1, 4); n > 0; --n) in.integer();  // bounding entities
     }
 }
 
@@ -137,16 +166,17 @@ using Positions = std::unordered_map<std::int64_t, std::int64_t>;
 
 Positions read_nodes(Source& in, MshFile& file) {
   Positions positions;
-  const auto blocks = in.count(), total = in.count();
+  const auto blocks = in.count(4, 20), total = in.count(4, 32);
   in.size();  // smallest and
   in.size();  // largest tag
   file.points.reserve(total);
   positions.reserve(total);
   for (std::int64_t b = 0; b < blocks; ++b) {
     const int dimension = in.integer();
+    if (dimension < 0 || dimension > 3) in.out_of_range("the dimension", dimension);
     in.integer();  // entity
     const bool parametric = in.integer() != 0;
-    const auto n = in.count();
+    const auto n = in.count(4, 32);
     for (std::int64_t i = 0; i < n; ++i) positions.emplace(in.size(), std::ssize(file.points) + i);
     for (std::int64_t i = 0; i < n; ++i) {
       Vec3<double> x;
@@ -172,7 +202,7 @@ int nodes_of_skipped(const Source& in, int dimension, int type) {
   return found->second;
 }
 
-/// Returns the position of each tetrahedron by its tag, for element data.
+/// Returns the position of each tetrahedron by its tag, for element data; -1 for a tag that several have.
 Positions read_elements(Source& in, MshFile& file, const Positions& positions) {
   Positions tetrahedra;
   constexpr int triangle = 2, tetrahedron = 4;
@@ -181,55 +211,63 @@ Positions read_elements(Source& in, MshFile& file, const Positions& positions) {
     if (found == positions.end()) in.damaged("an element names a node that does not exist");
     return found->second;
   };
-  const auto blocks = in.count();
-  for (int i = 0; i < 3; ++i) in.size();  // number of elements, smallest and largest tag
+  const auto blocks = in.count(4, 20), total = in.count(2, 16);
+  std::int64_t read = 0;
+  for (int i = 0; i < 2; ++i) in.size();  // smallest and largest tag
   for (std::int64_t b = 0; b < blocks; ++b) {
     const int dimension = in.integer(), entity = in.integer(), type = in.integer();
-    const auto n = in.count();
+    const auto n = in.count(2, 16);
+    read += n;
     for (std::int64_t i = 0; i < n; ++i) {
       const auto tag = in.size();
       if (type == triangle) {
         file.triangles.push_back({{node(), node(), node()}, entity});
       } else if (type == tetrahedron) {
-        tetrahedra.emplace(tag, std::ssize(file.tetrahedra));
+        if (!tetrahedra.emplace(tag, std::ssize(file.tetrahedra)).second) tetrahedra[tag] = -1;
         file.tetrahedra.push_back({{node(), node(), node(), node()}, entity});
       } else {
         for (int k = nodes_of_skipped(in, dimension, type); k > 0; --k) in.size();
       }
     }
   }
+  if (read != total) in.damaged(fmt::format("its head says {} elements, {} are there", total, read));
   return tetrahedra;
 }
 
+/// Reads the one that `wanted` names, in a section whose head is text in binary files, too.
 void read_element_data(Source& in, MshFile& file, const Positions& tetrahedra, const std::vector<std::string>& wanted) {
   std::string name;
-  for (int n = in.text<int>(), i = 0; i < n; ++i) {
+  for (int n = in.text_count(1), i = 0; i < n; ++i) {
     const auto tag = in.quoted();
     if (i == 0) name = tag;
   }
-  for (int n = in.text<int>(); n > 0; --n) in.text<double>();  // the first is the time
-  int components = 0;
-  std::int64_t count = 0;
-  for (int n = in.text<int>(), i = 0; i < n; ++i) {  // time step, components, elements, partition
+  if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) return;
+  for (int n = in.text_count(1); n > 0; --n) in.text<double>();  // the first is the time
+  std::int64_t components = 0, count = 0;
+  for (int n = in.text_count(1), i = 0; i < n; ++i) {  // time step, components, elements, partition
     const auto tag = in.text<std::int64_t>();
-    if (i == 1) components = static_cast<int>(tag);
+    if (i == 1) components = tag;
     if (i == 2) count = tag;
   }
-  if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) return;
-  if (components < 1 || components > 9 || count < 0) in.damaged("its integer tags are out of range");
+  if (components < 1 || components > 9) in.out_of_range("the number of components", components);
   in.end_of_line();
+  count = in.checked_count(count, in.binary ? 4 + 8 * components : 2 + 2 * components);
   const auto known =
       std::find_if(file.fields.begin(), file.fields.end(), [&](const auto& f) { return f.name == name; });
   if (known != file.fields.end()) in.refuse("holds element data " + name + " twice", "write one time step only");
-  mesh::ElementField field{name, components, {}};
+  mesh::ElementField field{name, static_cast<int>(components), {}};
   field.values.assign(file.tetrahedra.size() * static_cast<std::size_t>(components), std::nan(""));
   for (std::int64_t k = 0; k < count; ++k) {
-    const auto found = tetrahedra.find(in.integer());
+    const int tag = in.integer();
+    const auto found = tetrahedra.find(tag);
+    if (found != tetrahedra.end() && found->second < 0)
+      in.damaged(fmt::format("it names element {}, but several elements have this number", tag));
     for (int c = 0; c < components; ++c) {
       const double value = in.real();
       if (found != tetrahedra.end()) field.values[static_cast<std::size_t>(found->second * components + c)] = value;
     }
   }
+  in.expect_end_of("ElementData");
   file.fields.push_back(std::move(field));
 }
 
@@ -239,35 +277,82 @@ void require_fields(const Source& in, const MshFile& file, const std::vector<std
       in.refuse("there is no $ElementData called " + name, "write it to the file, or correct the name");
 }
 
-}  // namespace
-
-MshFile read_msh(const std::filesystem::path& path, const std::vector<std::string>& fields) {
+std::string whole_file(const std::filesystem::path& path) {
+  std::error_code error;
   std::ifstream stream(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path) || !stream)
+  if (!std::filesystem::is_regular_file(path, error) || !stream)
     throw InputError(path.string(), "there is no such file, or it cannot be read", "give the path of a Gmsh mesh");
-  Source in({std::istreambuf_iterator<char>(stream), {}}, path.string());
-  MshFile file;
-  Positions positions, tetrahedra;
-  if (in.word() != "$MeshFormat") in.refuse("does not begin with $MeshFormat", "give a Gmsh mesh (.msh)");
-  read_format(in);
-  in.skip_to_end_of("MeshFormat");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Where the content of each section begins, in the order of the file.
+using Sections = std::vector<std::pair<std::string, std::size_t>>;
+
+Sections find_sections(Source& in) {
+  constexpr const char* once[] = {"PhysicalNames", "Entities", "Nodes", "Elements"};
+  Sections sections;
   while (!in.at_end()) {
     const auto header = in.word();
     if (header[0] != '$') in.damaged("the next section is expected");
     const auto section = header.substr(1);
     in.begin_section(section);
-    in.end_of_line();
-    if (section == "PhysicalNames") read_physical_names(in, file);
-    if (section == "Entities") read_entities(in, file);
     if (section == "PartitionedEntities")
       in.refuse("the mesh is partitioned", "save it unpartitioned, tunica partitions it itself");
-    if (section == "Nodes") positions = read_nodes(in, file);
-    if (section == "Elements") tetrahedra = read_elements(in, file, positions);
-    if (section == "ElementData" && !fields.empty()) read_element_data(in, file, tetrahedra, fields);
+    const bool again = std::any_of(sections.begin(), sections.end(), [&](const auto& s) { return s.first == section; });
+    if (again && std::find(std::begin(once), std::end(once), section) != std::end(once))
+      in.refuse(fmt::format("section ${} is there twice", section), "keep one mesh in the file");
+    in.end_of_line();
+    sections.emplace_back(section, in.place());
     in.skip_to_end_of(section);
   }
+  return sections;
+}
+
+/// Calls `read` at the begin of every section of this name.
+template <class Read>
+void each_section(Source& in, const Sections& sections, const std::string& name, const Read& read) {
+  for (const auto& [section, begin] : sections) {
+    if (section != name) continue;
+    in.begin_section(name);
+    in.go_to(begin);
+    read();
+  }
+}
+
+/// The sections in the order in which they need each other, whatever their order in the file is.
+MshFile read_sections(Source& in, const std::vector<std::string>& fields) {
+  MshFile file;
+  Positions positions, tetrahedra;
+  if (in.at_end()) in.refuse("is empty", "write the mesh again from Gmsh");
+  if (in.word() != "$MeshFormat") in.refuse("does not begin with $MeshFormat", "give a Gmsh mesh (.msh)");
+  read_format(in);
+  in.expect_end_of("MeshFormat");
+  const auto sections = find_sections(in);
+  const auto each = [&](const std::string& name, const auto& read) {
+    each_section(in, sections, name, [&] {
+      read();
+      in.expect_end_of(name);
+    });
+  };
+  each("PhysicalNames", [&] { read_physical_names(in, file); });
+  each("Entities", [&] { read_entities(in, file); });
+  each("Nodes", [&] { positions = read_nodes(in, file); });
+  each("Elements", [&] { tetrahedra = read_elements(in, file, positions); });
+  each_section(in, sections, "ElementData", [&] { read_element_data(in, file, tetrahedra, fields); });
   require_fields(in, file, fields);
   return file;
+}
+
+}  // namespace
+
+MshFile read_msh(const std::filesystem::path& path, const std::vector<std::string>& fields) {
+  try {
+    Source in(whole_file(path), path.string());
+    return read_sections(in, fields);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string(), "needs more memory than this machine has",
+                     "give a coarser mesh, or a larger machine");
+  }
 }
 
 }  // namespace tunica::mesh_io

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/point_locator.hpp"
 #include "tunica/mesh/quality.hpp"
+#include "tunica/mesh_io/extent.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::mesh_io {
@@ -21,17 +24,47 @@ using Index = std::int64_t;
 
 constexpr int vtk_triangle = 5, vtk_tetrahedron = 10;
 
-std::vector<fs::path> surface_files(const fs::path& folder) {
-  std::vector<fs::path> files;
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+struct SurfaceFiles {
+  std::vector<fs::path> files;    ///< sorted
+  std::vector<fs::path> ignored;  ///< hidden ones, such as the `._*.vtp` that macOS puts beside files on other disks
+};
+
+SurfaceFiles surface_files(const fs::path& folder) {
+  SurfaceFiles found;
   const auto surfaces = folder / "mesh-surfaces";
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(surfaces, error))
-    if (entry.path().extension() == ".vtp") files.push_back(entry.path());
-  if (files.empty())
-    throw InputError(surfaces.string(), error ? "cannot be read: " + error.message() : "holds no .vtp file",
+  for (fs::directory_iterator at(surfaces, error), end; !error && at != end; at.increment(error)) {
+    const auto& path = at->path();
+    if (lower_case(path.extension().string()) != ".vtp") continue;
+    (path.filename().string().starts_with('.') ? found.ignored : found.files).push_back(path);
+  }
+  if (error || found.files.empty())
+    throw InputError(surfaces.string(),
+                     error ? "cannot be read: " + error.message()
+                           : fmt::format("holds no .vtp file{}", found.ignored.empty() ? "" : " but hidden ones"),
                      "export the mesh with its named faces (SimVascular: mesh-complete with mesh-surfaces)");
-  std::sort(files.begin(), files.end());
-  return files;
+  std::sort(found.files.begin(), found.files.end());
+  for (std::size_t i = 1; i < found.files.size(); ++i)
+    if (found.files[i].stem() == found.files[i - 1].stem())
+      throw InputError(found.files[i].string(),
+                       fmt::format("has the name of another face, {}", found.files[i - 1].filename().string()),
+                       "keep one file for each face");
+  return found;
+}
+
+/// The file of that name in the folder, whatever the case of its letters; the name as it is where there is none.
+fs::path volume_file(const fs::path& folder) {
+  const std::string name = "mesh-complete.mesh.vtu";
+  std::error_code error;
+  if (fs::exists(folder / name, error)) return folder / name;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (lower_case(at->path().filename().string()) == name) return at->path();
+  return folder / name;
 }
 
 /// Points in metres. Throws where a coordinate is not a finite number.
@@ -130,8 +163,9 @@ void sort_by_region(mesh::MeshData& data, VtkCells& file, const NamedRegions& re
                      "use an array of one integer per cell");
   std::map<int, std::vector<std::size_t>> members;
   for (std::size_t e = 0; e < numbers.size(); ++e) {
-    if (numbers[e] != std::round(numbers[e]))
-      throw InputError(where, fmt::format("{} = {} in element {}, no integer", regions.array, numbers[e], e + 1),
+    if (numbers[e] != std::round(numbers[e]) || std::abs(numbers[e]) > std::numeric_limits<int>::max())
+      throw InputError(where,
+                       fmt::format("{} = {} in element {}, no number of a region", regions.array, numbers[e], e + 1),
                        "use an array of region numbers");
     members[static_cast<int>(std::lround(numbers[e]))].push_back(e);
   }
@@ -296,7 +330,7 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
     throw InputError(folder.string(), fmt::format("length unit of {} m, must be positive", options.metres_per_unit),
                      "declare the length unit of the mesh");
   const auto surfaces = surface_files(folder);
-  const auto volume_path = folder / "mesh-complete.mesh.vtu";
+  const auto volume_path = volume_file(folder);
   const auto where = volume_path.string();
   auto arrays = options.fields;
   if (options.regions) arrays.push_back(options.regions->array);
@@ -308,11 +342,14 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   data.tetrahedra = cells_of_type<4>(file, vtk_tetrahedron, "tetrahedra", options.metres_per_unit, where);
   data.regions = {{name, kind, 0, std::ssize(data.tetrahedra)}};
   for (const auto& field : file.fields) refuse_not_finite(field, where);
+  refuse_unlikely_size(data.points, options.metres_per_unit, where);
   refuse_unused_nodes(data, where);
   mesh.report.push_back(fmt::format("{}: {} nodes, {} tetrahedra, {} faces; GlobalNodeID {}, GlobalElementID {}", where,
-                                    data.points.size(), data.tetrahedra.size(), surfaces.size(),
+                                    data.points.size(), data.tetrahedra.size(), surfaces.files.size(),
                                     file.global_node_ids.empty() ? "absent" : "present",
                                     file.global_element_ids.empty() ? "absent" : "present"));
+  for (const auto& path : surfaces.ignored)
+    mesh.report.push_back(fmt::format("{}: hidden file, ignored", path.string()));
   if (auto turned = mesh::orient_elements(data, where); !turned.empty()) mesh.report.push_back(std::move(turned));
   if (options.regions) {
     sort_by_region(data, file, *options.regions, kind, where);
@@ -327,7 +364,7 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   std::vector<Problem> problems;
   std::vector<mesh::FaceData> faces;
   std::vector<mesh::NodeField> node_fields;
-  for (const auto& path : surfaces) try {
+  for (const auto& path : surfaces.files) try {
       faces.push_back(read_face(path, volume, options, node_fields, mesh.report));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

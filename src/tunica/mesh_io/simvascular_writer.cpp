@@ -2,7 +2,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -13,10 +12,12 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
+#include "tunica/mesh_io/vtk_messages.hpp"
 
 namespace tunica::mesh_io {
 
@@ -32,7 +33,9 @@ void write(const fs::path& path, Data* data) {
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  if (writer->Write() != 1) throw SolverError(path.string() + ": cannot be written");
+  const FirstVtkMessage message(writer.Get());
+  if (writer->Write() != 1 || !message.text().empty())
+    throw SolverError(fmt::format("{}: cannot be written: {}", path.string(), message.text()));
 }
 
 /// Nodes and elements of one kind of region, numbered from 0.
@@ -61,11 +64,12 @@ Part make_part(const mesh::MeshData& data, mesh::RegionKind kind) {
   return part;
 }
 
-vtkNew<vtkIdTypeArray> id_array(const char* name, const std::vector<Index>& zero_based) {
-  vtkNew<vtkIdTypeArray> array;
+/// As Int32, the only type of numbers that SimVascular and svMultiPhysics read here.
+vtkNew<vtkIntArray> id_array(const char* name, const std::vector<Index>& zero_based) {
+  vtkNew<vtkIntArray> array;
   array->SetName(name);
   array->SetNumberOfValues(std::ssize(zero_based));
-  for (Index i = 0; i < std::ssize(zero_based); ++i) array->SetValue(i, zero_based[i] + 1);
+  for (Index i = 0; i < std::ssize(zero_based); ++i) array->SetValue(i, static_cast<int>(zero_based[i] + 1));
   return array;
 }
 
@@ -166,8 +170,12 @@ void make_empty_surface_folder(const fs::path& folder) {
 
 std::vector<std::string> write_simvascular(const fs::path& folder, const mesh::MeshData& data, mesh::RegionKind kind,
                                            double metres_per_unit) {
-  make_empty_surface_folder(folder / "mesh-surfaces");
   const Part part = make_part(data, kind);
+  if (const auto largest = std::max(std::ssize(part.nodes), std::ssize(part.elements));
+      largest > std::numeric_limits<int>::max())
+    throw SolverError(fmt::format("{}: {} nodes or elements, the format can number {}", folder.string(), largest,
+                                  std::numeric_limits<int>::max()));
+  make_empty_surface_folder(folder / "mesh-surfaces");
   write_volume(folder / "mesh-complete.mesh.vtu", data, part, metres_per_unit);
   const mesh::Boundary boundary(data.tetrahedra, std::ssize(data.points), folder.string());
   std::vector<const mesh::FaceData*> faces;

@@ -1,11 +1,9 @@
 #include "tunica/mesh_io/vtk_files.hpp"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCommand.h>
-#include <vtkExecutive.h>
+#include <vtkDataArraySelection.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -14,43 +12,54 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
+#include <cmath>
+#include <new>
 #include <string>
 
 #include "tunica/base/error.hpp"
+#include "tunica/mesh_io/vtk_check.hpp"
+#include "tunica/mesh_io/vtk_messages.hpp"
 
 namespace tunica::mesh_io {
 
 namespace {
 
-/// Keeps VTK's first error message instead of letting it print.
-void keep_first_message(vtkObject*, unsigned long, void* keep, void* message) {
-  auto& text = *static_cast<std::string*>(keep);
-  if (text.empty() && message) text = static_cast<const char*>(message);
-}
+constexpr const char* node_ids = "GlobalNodeID";
+constexpr const char* element_ids = "GlobalElementID";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
   throw InputError(path.string(), what, "give a readable VTK XML file, or export the mesh again");
 }
 
+/// What is not wanted is not read, and cannot be damaged.
+void select(vtkDataArraySelection* selection, const std::vector<std::string>& wanted) {
+  for (int i = 0; i < selection->GetNumberOfArrays(); ++i) {
+    const std::string name = selection->GetArrayName(i);
+    const bool want = std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    selection->SetArraySetting(name.c_str(), want ? 1 : 0);
+  }
+}
+
 /// Runs the reader and returns its output, or throws with VTK's own message.
 template <class Reader>
-void update(Reader* reader, const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) refuse(path, "there is no such file");
-  std::string message;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetCallback(keep_first_message);
-  observer->SetClientData(&message);
-  reader->AddObserver(vtkCommand::ErrorEvent, observer);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, observer);
-  reader->SetReaderErrorObserver(observer);
-  reader->SetParserErrorObserver(observer);
-  reader->SetFileName(path.c_str());
-  if (!reader->CanReadFile(path.c_str())) refuse(path, "is not a VTK XML file of the expected kind");
-  reader->Update();
-  if (message.empty() && reader->GetErrorCode() == 0) return;
-  // VTK puts "ERROR: In <source file>, line <n>\n<class> (<address>): " before what it has to say.
-  const auto prefix = message.rfind("): ");
-  refuse(path, "cannot be read: " + (prefix == std::string::npos ? message : message.substr(prefix + 3)));
+void update(Reader* reader, const char* kind, const std::vector<std::string>& fields,
+            const std::filesystem::path& path) {
+  auto wanted = fields;
+  wanted.insert(wanted.end(), {node_ids, element_ids});
+  const FirstVtkMessage message(reader);
+  check_vtk_file(path, kind, wanted);
+  try {
+    reader->SetFileName(path.c_str());
+    reader->UpdateInformation();
+    select(reader->GetPointDataArraySelection(), wanted);
+    select(reader->GetCellDataArraySelection(), wanted);
+    reader->Update();
+  } catch (const std::bad_alloc&) {
+    refuse(path, "holds more data than fit into the memory of this machine");
+  }
+  if (!message.text().empty()) refuse(path, "cannot be read: " + message.text());
+  if (reader->GetErrorCode() != 0) refuse(path, fmt::format("cannot be read: VTK's error {}", reader->GetErrorCode()));
 }
 
 std::vector<std::int64_t> integers(vtkDataSetAttributes* attributes, const char* name, std::int64_t expected,
@@ -61,18 +70,23 @@ std::vector<std::int64_t> integers(vtkDataSetAttributes* attributes, const char*
   if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != expected)
     refuse(path, fmt::format("{} has {} values, {} expected", name, array->GetNumberOfTuples(), expected));
   values.resize(expected);
-  for (std::int64_t i = 0; i < expected; ++i) values[i] = static_cast<std::int64_t>(array->GetComponent(i, 0));
+  // Beyond this a floating-point number has no units, and no mesh has such numbers.
+  constexpr double largest = 9e15;
+  for (std::int64_t i = 0; i < expected; ++i) {
+    const double value = array->GetComponent(i, 0);
+    values[i] = std::abs(value) < largest ? static_cast<std::int64_t>(value) : -1;
+  }
   return values;
 }
 
 /// `kind`: "cell" or "point".
-mesh::ElementField field_of(vtkDataSetAttributes* attributes, const char* kind, const std::string& name,
-                            const std::filesystem::path& path) {
+mesh::ElementField field_of(vtkDataSetAttributes* attributes, vtkDataArraySelection* present, const char* kind,
+                            const std::string& name, const std::filesystem::path& path) {
   vtkDataArray* array = attributes->GetArray(name.c_str());
   if (!array) {
     std::string names;
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-      if (const char* other = attributes->GetArrayName(i)) names += (names.empty() ? "" : ", ") + std::string(other);
+    for (int i = 0; i < present->GetNumberOfArrays(); ++i)
+      names += (names.empty() ? "" : ", ") + std::string(present->GetArrayName(i));
     throw InputError(
         path.string(), fmt::format("there is no numeric {} array called {}", kind, name),
         names.empty() ? fmt::format("write one to the file, it has no {} arrays", kind) : "use one of: " + names);
@@ -87,6 +101,7 @@ template <class Grid, class CellTypes>
 VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, const std::filesystem::path& path) {
   VtkCells result;
   const std::int64_t nodes = grid->GetNumberOfPoints(), cells = cell_array->GetNumberOfCells();
+  if (!cell_array->IsValid()) refuse(path, "the offsets of the cells and their points do not belong together");
   result.points.resize(nodes);
   for (std::int64_t n = 0; n < nodes; ++n) grid->GetPoint(n, result.points[n].x);
   result.offsets.push_back(0);
@@ -102,8 +117,8 @@ VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, 
     result.offsets.push_back(std::ssize(result.connectivity));
     result.types.push_back(type_of(c, size));
   }
-  result.global_node_ids = integers(grid->GetPointData(), "GlobalNodeID", nodes, path);
-  result.global_element_ids = integers(grid->GetCellData(), "GlobalElementID", cells, path);
+  result.global_node_ids = integers(grid->GetPointData(), node_ids, nodes, path);
+  result.global_element_ids = integers(grid->GetCellData(), element_ids, cells, path);
   return result;
 }
 
@@ -111,28 +126,34 @@ VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, 
 
 VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  update(reader.Get(), path);
+  update(reader.Get(), "UnstructuredGrid", fields, path);
   vtkUnstructuredGrid* grid = reader->GetOutput();
   VtkCells cells = arrays(
       grid, grid->GetCells(), [&](std::int64_t c, vtkIdType) { return grid->GetCellType(c); }, path);
-  for (const auto& name : fields) cells.fields.push_back(field_of(grid->GetCellData(), "cell", name, path));
+  for (const auto& name : fields)
+    cells.fields.push_back(field_of(grid->GetCellData(), reader->GetCellDataArraySelection(), "cell", name, path));
   return cells;
 }
 
 VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields) {
   vtkNew<vtkXMLPolyDataReader> reader;
-  update(reader.Get(), path);
+  update(reader.Get(), "PolyData", fields, path);
   vtkPolyData* surface = reader->GetOutput();
   // Vertices, lines and strips come in arrays of their own; the faces of a volume have none.
   if (surface->GetNumberOfVerts() + surface->GetNumberOfLines() + surface->GetNumberOfStrips() > 0)
-    refuse(path, fmt::format("holds {} vertices, {} lines and {} strips beside {} polygons; only triangles are allowed",
-                             surface->GetNumberOfVerts(), surface->GetNumberOfLines(), surface->GetNumberOfStrips(),
-                             surface->GetNumberOfPolys()));
+    throw InputError(
+        path.string(),
+        fmt::format("holds {} vertices, {} lines and {} strips beside {} polygons; only triangles are allowed",
+                    surface->GetNumberOfVerts(), surface->GetNumberOfLines(), surface->GetNumberOfStrips(),
+                    surface->GetNumberOfPolys()),
+        surface->GetNumberOfStrips() > 0 ? "turn them into triangles, for example with ParaView's filter Triangulate"
+                                         : "remove vertices and lines, for example with ParaView's filters Extract "
+                                           "Cells By Type and Extract Surface");
   VtkCells cells = arrays(
       surface, surface->GetPolys(), [](std::int64_t, vtkIdType size) { return size == 3 ? VTK_TRIANGLE : VTK_POLYGON; },
       path);
   for (const auto& name : fields) {
-    auto field = field_of(surface->GetPointData(), "point", name, path);
+    auto field = field_of(surface->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path);
     if (field.components != 1)
       refuse(path, fmt::format("point array {} has {} components, one is expected", name, field.components));
     cells.node_fields.push_back({name, std::move(field.values)});

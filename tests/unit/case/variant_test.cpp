@@ -81,7 +81,13 @@ TEST_F(Variant, IsMadeInTheFolderOfTheCaseByBareNames) {
   EXPECT_NE(text.find("simvascular: ../mesh"), std::string::npos) << text;
 }
 
+TEST_F(Variant, RefusesValuesThatContainThemselves) {
+  for (const char* setting : {"title=&a [*a]", "boundary=&b {lumen_inlet: *b}", "time=&t {<<: *t}"})
+    EXPECT_NE(message({setting}).find("would contain itself"), std::string::npos) << message({setting});
+}
+
 TEST_F(Variant, SaysWhatIsWrong) {
+  EXPECT_NE(message({"title.x=1"}).find("`x` can be no key of a value"), std::string::npos) << message({"title.x=1"});
   EXPECT_NE(message({"time.step"}).find("is no setting"), std::string::npos);
   EXPECT_NE(message({"time.stop=1 ms"}).find("time.stop"), std::string::npos);
   EXPECT_NE(message({}, {"solver"}).find("is no key"), std::string::npos);

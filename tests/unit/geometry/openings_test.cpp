@@ -1,5 +1,7 @@
 #include "tunica/geometry/openings.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "small_surfaces.hpp"
@@ -61,9 +63,19 @@ TEST(Openings, RefusesWhatDoesNotMatch) {
   EXPECT_TRUE(says(why(lumen, wall, {{"side", {{20e-3, 0, 10e-3}}}}), "there is no opening of its own"));
 }
 
+TEST(Openings, RefusesDiametersThatSpeakOfAnotherUnit) {
+  for (const double factor : {0.1, 25.4}) {
+    auto scaled = lumen;
+    for (auto& p : scaled.points) p = factor * p;
+    const auto text = message_of<InputError>([&] { find_openings(scaled, nullptr, {}); });
+    EXPECT_TRUE(says(text, fmt::format("its largest opening is {:.3g} mm wide", 9.94 * factor))) << text;
+    EXPECT_TRUE(says(text, "correct length_unit")) << text;
+  }
+}
+
 TEST(Openings, RefusesAClosedSurface) {
   const auto ball = contour({{2e-3, 2e-3, 2e-3}}, 0.3e-3, [](const Point& x) { return norm(x) - 1e-3; });
-  EXPECT_TRUE(says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings"));
+  EXPECT_TRUE(says(message_of<InputError>([&] { find_openings(ball, nullptr, {}); }), "has no openings; its size is "));
 }
 
 TEST(Openings, RimsAreFlattenedWithoutFolds) {
@@ -99,6 +111,9 @@ TEST(OpeningNames, ReadFromTable) {
   EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\na,1,2,3\na,1,2,3\n"), "there already"));
   EXPECT_TRUE(says(why("# nothing\n"), "names no opening"));
   EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path / "none.csv", 1); }), "cannot be read"));
+  EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path, 1); }), "cannot be read"));
+  EXPECT_TRUE(says(why(std::string(20000, 'x')), "line 1: is no line of a table"));
+  EXPECT_TRUE(says(why(std::string("name\0", 5)), "line 1: is no line of a table"));
 }
 
 }  // namespace

@@ -93,7 +93,9 @@ std::string elements_section(const Model& m, Encoding encoding) {
   Sink s(encoding);
   const auto surfaces = surface_triangles(m);
   std::int64_t tag = 1;
-  s.text("$Elements\n").size(3 + 5 + 1).size(1000).size(1).size(1000);
+  std::int64_t elements = 1 + 3 * 6;
+  for (int f = 0; f < 5; ++f) elements += m.surfaces[f].empty() ? 0 : std::ssize(surfaces[f]);
+  s.text("$Elements\n").size(3 + 5 + 1).size(elements).size(1).size(1000);
   s.integer(1).integer(1).integer(1).size(1).size(tag++).size(7).size(17);  // a line
   for (int v = 1; v <= 3; ++v) {
     s.integer(3).integer(v).integer(m.tetrahedron).size(6);
@@ -242,6 +244,138 @@ TEST(Gmsh, RefusesDamagedFilesWhereverTheyEnd) {
     const auto whole = msh({}, encoding);
     for (std::size_t length = 0; length + 2 < whole.size(); length += 97)
       EXPECT_THROW(read_text(whole.substr(0, length)), InputError) << length;
+  }
+}
+
+// --- files that lie about themselves --------------------------------------------------------------------------------
+
+namespace {
+
+std::string refusal_of_text(const std::string& content, const GmshOptions& with = options) {
+  return message_of<InputError>([&] { read_text(content, with); });
+}
+
+/// The text with the first `from` behind `after` replaced.
+std::string with(std::string text, const std::string& after, const std::string& from, const std::string& to) {
+  const auto place = text.find(from, text.find(after));
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+/// Takes the section out of the text.
+std::string cut(std::string& text, const std::string& section) {
+  const auto begin = text.find("$" + section), end = text.find("$End" + section) + 5 + section.size();
+  const auto part = text.substr(begin, end - begin);
+  text.erase(begin, end - begin);
+  return part;
+}
+
+/// $ElementData `e1` of three components, for each tetrahedron ten times its tag.
+std::string element_data(Encoding encoding, std::int64_t count, int components = 3) {
+  Sink s(encoding);
+  s.text(fmt::format("\n$ElementData\n1\n\"e1\"\n1\n0\n3\n0\n{}\n{}\n", components, count));
+  for (std::int32_t tag = 2; tag < 20; ++tag) {
+    s.integer(tag);
+    for (int c = 0; c < 3; ++c) s.real(10 * tag);
+  }
+  return s.text("\n$EndElementData\n").str();
+}
+
+GmshOptions with_e1() {
+  auto result = options;
+  result.fields = {"e1"};
+  return result;
+}
+
+}  // namespace
+
+TEST(Gmsh, ReadsSectionsInAnyOrder) {
+  for (const auto encoding : {Encoding::ascii, Encoding::binary}) {
+    auto text = msh({}, encoding);
+    const auto expected = read_text(text + element_data(encoding, 18), with_e1()).data;
+    const auto elements = cut(text, "Elements"), nodes = cut(text, "Nodes"), names = cut(text, "PhysicalNames");
+    for (const auto& order :
+         {element_data(encoding, 18) + elements + nodes, elements + element_data(encoding, 18) + nodes,
+          nodes + element_data(encoding, 18) + elements}) {
+      const auto data = read_text(text + order + "\n" + names, with_e1()).data;
+      EXPECT_EQ(data.tetrahedra, expected.tetrahedra);
+      ASSERT_EQ(data.fields.size(), 1u);
+      EXPECT_EQ(data.fields[0].values, expected.fields[0].values);
+    }
+    // The wall, of which the file says the elements 8 to 13, comes first in the mesh.
+    EXPECT_EQ(expected.fields[0].values[0], 80);
+  }
+}
+
+TEST(Gmsh, RefusesSectionsThatAreThereTwiceOrNotAtAll) {
+  const auto text = msh({}, Encoding::ascii);
+  for (const std::string section : {"PhysicalNames", "Entities", "Nodes", "Elements"}) {
+    auto rest = text;
+    const auto part = cut(rest, section);
+    EXPECT_NE(refusal_of_text(rest), "") << section;
+    EXPECT_TRUE(contains(refusal_of_text(text + part), "section $" + section + " is there twice")) << section;
+  }
+  EXPECT_TRUE(contains(refusal_of_text(""), "is empty"));
+  EXPECT_TRUE(contains(refusal_of_text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"), "no tetrahedra"));
+}
+
+TEST(Gmsh, RefusesCountsThatTheFileHasNoRoomFor) {
+  const auto text = msh({}, Encoding::ascii);
+  for (const char* count : {"1000000", "9000000000000000000", "-5"}) {
+    for (const std::string section : {"PhysicalNames", "Entities", "Nodes", "Elements"}) {
+      const auto line = text.find('\n', text.find("$" + section)) + 1;
+      auto changed = text;
+      changed.replace(line, text.find('\n', line) - line, count);
+      const auto why = refusal_of_text(changed);
+      EXPECT_TRUE(contains(why, "section $" + section + " is damaged")) << section << " " << count << ": " << why;
+    }
+  }
+  EXPECT_TRUE(contains(refusal_of_text(text + element_data(Encoding::ascii, 1LL << 60), with_e1()), "does not fit"));
+  EXPECT_TRUE(contains(refusal_of_text(text + element_data(Encoding::ascii, 18, -3), with_e1()), "components -3"));
+  EXPECT_TRUE(contains(refusal_of_text(text + element_data(Encoding::ascii, 12), with_e1()), "holds more, or less"));
+  // One element too many in the head of the section, one too few.
+  EXPECT_TRUE(contains(refusal_of_text(with(text, "$Elements", "\n9\n", "\n10\n")), "section $Elements is damaged"));
+}
+
+TEST(Gmsh, RefusesNumbersBeyondTheirRange) {
+  const auto text = msh({}, Encoding::ascii);
+  for (const char* number : {"-2147483648", "2147483648", "99999999999999999999"}) {
+    const auto why = refusal_of_text(with(text, "$Entities", "\n11\n", fmt::format("\n{}\n", number)));
+    EXPECT_TRUE(contains(why, "section $Entities is damaged")) << number << why;
+  }
+  EXPECT_TRUE(contains(refusal_of_text(with(text, "$PhysicalNames", "3 11", "3 -2147483648")), "is out of range"));
+  // A group of the other orientation is the same group.
+  EXPECT_NO_THROW(read_text(with(text, "$Entities", "\n11\n", "\n-11\n")));
+  EXPECT_TRUE(contains(refusal_of_text(with(text, "$Nodes", "\n3\n1\n0\n", "\n-3\n1\n0\n")), "the dimension -3"));
+  EXPECT_TRUE(contains(refusal_of_text(with(text, "$Nodes", "\n3\n1\n0\n", "\n7\n1\n0\n")), "the dimension 7"));
+  for (const char* value : {"nan", "inf", "-inf", "1e400"}) {
+    const auto why = refusal_of_text(with(text, "$Nodes", "\n0.5\n", fmt::format("\n{}\n", value)));
+    EXPECT_NE(why.find(value == std::string("1e400") ? "is damaged" : ""), std::string::npos) << why;
+  }
+}
+
+TEST(Gmsh, RefusesElementDataOfElementsWithTheSameNumber) {
+  auto text = msh({}, Encoding::ascii);
+  text = with(text, "\n3\n2\n4\n6\n", "\n8\n", "\n2\n");
+  EXPECT_NO_THROW(read_text(text));
+  EXPECT_TRUE(contains(refusal_of_text(text + element_data(Encoding::ascii, 18), with_e1()),
+                       "several elements have this number"));
+}
+
+// Whatever single byte is wrong, the reader must come to an end of its own; sanitizers see the rest.
+TEST(Gmsh, SurvivesAnyWrongByte) {
+  for (const auto encoding : {Encoding::ascii, Encoding::binary}) {
+    const auto whole = msh({}, encoding) + element_data(encoding, 18);
+    for (std::size_t i = 0; i < whole.size(); i += 151)
+      for (const char byte : {'\0', '-', '9', '\xff'}) {
+        auto changed = whole;
+        changed[i] = byte;
+        try {
+          read_text(changed, with_e1());
+        } catch (const InputError& error) {
+          EXPECT_NE(std::string(error.what()), "");
+        }
+      }
   }
 }
 

@@ -210,7 +210,9 @@ TEST(SimVascular, RefusesMissingAndDamagedFiles) {
   write(folder.path(), block(), {});
   const auto volume = folder.path() / "mesh-complete.mesh.vtu";
   fs::resize_file(volume, fs::file_size(volume) / 2);
-  EXPECT_TRUE(contains(message_of<InputError>(read), "cannot be read")) << message_of<InputError>(read);
+  EXPECT_TRUE(contains(message_of<InputError>(read), "mesh-complete.mesh.vtu:")) << message_of<InputError>(read);
+  EXPECT_TRUE(contains(message_of<InputError>(read), "cannot be read: the file ends before </DataArray>"))
+      << message_of<InputError>(read);
   fs::remove(volume);
   EXPECT_TRUE(contains(message_of<InputError>(read), "there is no such file"));
   EXPECT_THROW(read_simvascular(folder.path(), mesh::RegionKind::lumen, "x", {.metres_per_unit = 0}), InputError);
@@ -230,6 +232,92 @@ TEST(SimVascular, WritesElementFieldsThatReadBackToTheSameBits) {
   ASSERT_EQ(read.data.fields.size(), 1u);
   const auto first = field.values.begin() + 3 * data.regions[1].first_element;
   EXPECT_EQ(read.data.fields[0].values, std::vector(first, field.values.end()));
+}
+
+// svMultiPhysics takes other types of integers for absent.
+TEST(SimVascular, WritesIdsAsInt32) {
+  const TemporaryFolder folder;
+  write_simvascular(folder.path(), block(), mesh::RegionKind::lumen, 0.01);
+  for (const char* file : {"mesh-complete.mesh.vtu", "mesh-complete.exterior.vtp", "mesh-surfaces/x_max.vtp"}) {
+    const auto text = test::slurp(folder.path() / file);
+    for (const std::string name : {"GlobalNodeID", "GlobalElementID"})
+      EXPECT_TRUE(contains(text, "<DataArray type=\"Int32\" Name=\"" + name + "\"")) << file << " " << name;
+  }
+  EXPECT_TRUE(contains(test::slurp(folder.path() / "mesh-surfaces/x_max.vtp"), "type=\"Int32\" Name=\"ModelFaceID\""));
+  const auto read = read_simvascular(folder.path(), mesh::RegionKind::lumen, "blood", {.metres_per_unit = 0.01});
+  EXPECT_TRUE(contains(read.report[1], "all 9 right; GlobalElementID right for 8 of 8")) << read.report[1];
+}
+
+TEST(SimVascular, IgnoresHiddenFilesAndTheCaseOfExtensions) {
+  const TemporaryFolder folder;
+  write(folder.path(), block(), {});
+  const auto surfaces = folder.path() / "mesh-surfaces";
+  std::ofstream(surfaces / "._x_max.vtp", std::ios::binary) << std::string("\0\5\26\7", 4);
+  fs::rename(surfaces / "x_max.vtp", surfaces / "x_max.VTP");
+  fs::rename(folder.path() / "mesh-complete.mesh.vtu", folder.path() / "mesh-complete.mesh.VTU");
+  const auto read = [&] {
+    return read_simvascular(folder.path(), mesh::RegionKind::lumen, "blood", {.metres_per_unit = 0.01});
+  };
+  const auto mesh = read();
+  EXPECT_EQ(mesh::testing::face(mesh.data, "x_max").triangles.size(), 8u);
+  EXPECT_TRUE(contains(mesh.report[1], "._x_max.vtp: hidden file, ignored")) << mesh.report[1];
+  fs::copy(surfaces / "x_max.VTP", surfaces / "x_max.vtp");
+  EXPECT_TRUE(contains(message_of<InputError>(read), "has the name of another face, x_max.VTP"));
+  for (const auto& face : block().faces) fs::remove(surfaces / (face.name + ".vtp"));
+  fs::remove(surfaces / "x_max.VTP");
+  EXPECT_TRUE(contains(message_of<InputError>(read), "holds no .vtp file but hidden ones"));
+}
+
+TEST(SimVascular, SaysThatNodesCoincideWhereAMeshIsInTwoParts) {
+  auto halves = mesh::box(2, 1, 1, {{0.02, 0.01, 0.01}}, mesh::RegionKind::lumen);
+  // The elements beyond the middle get nodes of their own there.
+  std::map<std::int64_t, std::int64_t> copies;
+  for (auto& t : halves.tetrahedra) {
+    if (mesh::centroid(halves.points, t)[0] < 0.01) continue;
+    for (auto& n : t) {
+      if (std::abs(halves.points[n][0] - 0.01) > 1e-9) continue;
+      const auto [copy, added] = copies.emplace(n, std::ssize(halves.points));
+      if (added) halves.points.push_back(Vec3<double>(halves.points[n]));
+      n = copy->second;
+    }
+  }
+  ASSERT_EQ(copies.size(), 4u);
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "mesh-surfaces");
+  write_volume(folder.path() / "mesh-complete.mesh.vtu", halves, 100, {});
+  const auto whole = mesh::box(2, 1, 1, {{0.02, 0.01, 0.01}}, mesh::RegionKind::lumen);
+  for (const auto& face : whole.faces)
+    write_face(folder.path() / "mesh-surfaces" / (face.name + ".vtp"), whole, face, 100, {.face_ids = false});
+  const auto why = message_of<InputError>(
+      [&] { read_simvascular(folder.path(), mesh::RegionKind::lumen, "blood", {.metres_per_unit = 0.01}); });
+  EXPECT_TRUE(contains(why, "coincide with another node")) << why;
+  EXPECT_TRUE(contains(why, "merge the duplicate nodes")) << why;
+}
+
+TEST(SimVascular, SaysWhenTheLengthUnitMustBeWrong) {
+  const TemporaryFolder folder;
+  write(folder.path(), block(), {});
+  for (const double unit : {1e-5, 1e2})
+    EXPECT_TRUE(contains(message_of<InputError>([&] {
+                           read_simvascular(folder.path(), mesh::RegionKind::lumen, "x", {.metres_per_unit = unit});
+                         }),
+                         "correct length_unit, it may be cm (41.23 mm)"))
+        << unit;
+}
+
+TEST(SimVascular, RefusesRegionNumbersThatAreNone) {
+  auto data = mesh::box(1, 1, 1, {{0.01, 0.01, 0.01}}, mesh::RegionKind::wall);
+  for (const double number : {0.5, 1e300, -3e9}) {
+    data.fields = {{"part", 1, std::vector<double>(data.tetrahedra.size(), number)}};
+    const TemporaryFolder folder;
+    write_simvascular(folder.path(), data, mesh::RegionKind::wall, 1e-2);
+    SimVascularOptions options{.metres_per_unit = 1e-2};
+    options.regions = {"part", {{1, "media"}}};
+    EXPECT_TRUE(
+        contains(message_of<InputError>([&] { read_simvascular(folder.path(), mesh::RegionKind::wall, "x", options); }),
+                 "no number of a region"))
+        << number;
+  }
 }
 
 // The same surface in two files, one with coarser coordinates: join() must find the pairs of the original tube.
