@@ -20,7 +20,8 @@ namespace tunica::config {
 class Document {
  public:
   Document();
-  /// Throws InputError when the text is no YAML, or contains itself, or is too deep or large; `name` is for its message.
+  /// Throws InputError when the text is no YAML, or contains itself, or is too deep or large; `name` is for its
+  /// message.
   explicit Document(const std::string& yaml, const std::string& name = "case file");
   Document(const Document& other);
   Document& operator=(const Document& other);

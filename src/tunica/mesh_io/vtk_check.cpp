@@ -38,12 +38,14 @@ class Check {
         const std::vector<std::string>& wanted)
       : text_(text), where_(where), kind_(kind), wanted_(wanted), tags_(text, where_) {}
 
-  void run() {
+  /// Returns the places of the names of tags that VTK is not to find.
+  std::vector<std::size_t> run() {
     read_head();
     read_tags();
     for (const auto& array : loose_) check_field_array(array);
     if (pieces_.empty()) tags_.refuse(0, "there is no <Piece>");
     for (const auto& piece : pieces_) check_piece(piece);
+    return hidden_;
   }
 
  private:
@@ -80,6 +82,11 @@ class Check {
         if (open.empty() || open.back() != tag->name)
           tags_.refuse(tag->begin, fmt::format("</{}> closes nothing", tag->name));
         open.pop_back();
+        if (tag->name == "FieldData" && has_texts_) {
+          hidden_.push_back(field_data_ + 1);
+          hidden_.push_back(tag->begin + 2);
+          has_texts_ = false;
+        }
         continue;
       }
       if (open.empty()) tags_.refuse(tag->begin, fmt::format("<{}> stands behind the end", tag->name));
@@ -93,6 +100,10 @@ class Check {
 
   void take(const XmlTag& tag, const std::vector<std::string>& open) {
     if (!tag.attribute("TimeValues").empty()) tags_.refuse(tag.begin, "it holds several time steps, one is needed");
+    if (tag.name == "FieldData") {
+      if (open.back() == tag.name) tags_.refuse(tag.begin, "<FieldData> stands within <FieldData>");
+      field_data_ = tag.begin;
+    }
     if (tag.name == "Piece") {
       if (open.size() != 2) tags_.refuse(tag.begin, fmt::format("<Piece> stands within <{}>", open.back()));
       pieces_.push_back({tag.begin, counts_of(tag), {}});
@@ -101,6 +112,7 @@ class Check {
     ArrayTag array{tag, open.back(), {}};
     if (!tag.empty) array.content = text_.substr(tag.end, std::min(text_.find('<', tag.end), text_.size()) - tag.end);
     const bool in_piece = open.size() == 4 && open[2] == "Piece";
+    has_texts_ |= !in_piece && !bytes_of_type(tag.attribute("type"));
     (in_piece ? pieces_.back().arrays : loose_).push_back(std::move(array));
   }
 
@@ -218,12 +230,9 @@ class Check {
 
   /// Arrays of the file as a whole, which VTK reads whether they are wanted or not.
   void check_field_array(const ArrayTag& array) const {
-    const bool text = array.tag.attribute("type") == "String";
+    if (!bytes_of_type(array.tag.attribute("type"))) return;  // hidden
     const bool counted = !array.tag.attribute("NumberOfTuples").empty();
-    const auto tuples = counted ? whole_number(array.tag, "NumberOfTuples") : 0;
-    if (text && tuples > static_cast<std::int64_t>(text_.size()))
-      tags_.refuse(array.tag.begin, fmt::format("it cannot hold {} texts", tuples));
-    if (!text) check(array, tuples * components(array));
+    check(array, counted ? whole_number(array.tag, "NumberOfTuples") * components(array) : 0);
   }
 
   VtkArray described(const ArrayTag& array) const {
@@ -261,20 +270,27 @@ class Check {
   VtkEncoding encoding_;
   std::vector<Piece> pieces_;
   std::vector<ArrayTag> loose_;
+  std::vector<std::size_t> hidden_;
+  std::size_t field_data_ = 0;  ///< where the last one begins
+  bool has_texts_ = false;      ///< among its arrays
   std::optional<std::string_view> appended_;
   bool appended_base64_ = false;
 };
 
 }  // namespace
 
-void check_vtk_file(const std::filesystem::path& path, const std::string& kind,
-                    const std::vector<std::string>& wanted) {
+std::string check_vtk_file(const std::filesystem::path& path, const std::string& kind,
+                           const std::vector<std::string>& wanted) {
   std::error_code error;
   std::ifstream stream(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(path, error) || !stream)
     throw InputError(path.string(), "there is no such file, or it cannot be read", "check its name and permissions");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  Check(text, path.string(), kind, wanted).run();
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const auto hidden = Check(text, path.string(), kind, wanted).run();
+  if (hidden.empty()) return {};
+  // Another name of the same length, for which VTK has no use.
+  for (const auto place : hidden) text[place] = 'x';
+  return text;
 }
 
 }  // namespace tunica::mesh_io

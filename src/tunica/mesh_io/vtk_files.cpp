@@ -48,9 +48,11 @@ void update(Reader* reader, const char* kind, const std::vector<std::string>& fi
   auto wanted = fields;
   wanted.insert(wanted.end(), {node_ids, element_ids});
   const FirstVtkMessage message(reader);
-  check_vtk_file(path, kind, wanted);
+  const auto text = check_vtk_file(path, kind, wanted);
   try {
     reader->SetFileName(path.c_str());
+    reader->SetReadFromInputString(!text.empty());
+    if (!text.empty()) reader->SetInputString(text);
     reader->UpdateInformation();
     select(reader->GetPointDataArraySelection(), wanted);
     select(reader->GetCellDataArraySelection(), wanted);
@@ -100,8 +102,9 @@ mesh::ElementField field_of(vtkDataSetAttributes* attributes, vtkDataArraySelect
 template <class Grid, class CellTypes>
 VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, const std::filesystem::path& path) {
   VtkCells result;
-  const std::int64_t nodes = grid->GetNumberOfPoints(), cells = cell_array->GetNumberOfCells();
-  if (!cell_array->IsValid()) refuse(path, "the offsets of the cells and their points do not belong together");
+  const std::int64_t nodes = grid->GetNumberOfPoints(), cells = cell_array ? cell_array->GetNumberOfCells() : 0;
+  if (cell_array && !cell_array->IsValid())
+    refuse(path, "the offsets of the cells and their points do not belong together");
   result.points.resize(nodes);
   for (std::int64_t n = 0; n < nodes; ++n) grid->GetPoint(n, result.points[n].x);
   result.offsets.push_back(0);

@@ -1,7 +1,5 @@
 #include "tunica/geometry/openings.hpp"
 
-#include <fmt/format.h>
-
 #include <fstream>
 
 #include "small_surfaces.hpp"
@@ -68,7 +66,8 @@ TEST(Openings, RefusesDiametersThatSpeakOfAnotherUnit) {
     auto scaled = lumen;
     for (auto& p : scaled.points) p = factor * p;
     const auto text = message_of<InputError>([&] { find_openings(scaled, nullptr, {}); });
-    EXPECT_TRUE(says(text, fmt::format("its largest opening is {:.3g} mm wide", 9.94 * factor))) << text;
+    EXPECT_TRUE(says(text, factor < 1 ? "its largest opening is 0.994 mm wide" : "its largest opening is 253 mm wide"))
+        << text;
     EXPECT_TRUE(says(text, "correct length_unit")) << text;
   }
 }

@@ -244,6 +244,23 @@ TEST(VtkFiles, RefusesTwoArraysOfOneName) {
   }
 }
 
+// VTK writes beyond the end of an array of texts when there are more of them than its head says.
+TEST(VtkFiles, LeavesTextsOfTheFileAlone) {
+  std::string texts;
+  for (int i = 0; i < 3000; ++i) texts += "97 98 0 ";
+  const std::string array = "<Array type=\"String\" Name=\"names\" NumberOfTuples=\"1\" format=\"ascii\">" + texts +
+                            "</Array><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+                            "format=\"ascii\">2</DataArray>";
+  EXPECT_EQ(refusal(replaced(small_volume(), "<Piece", "<FieldData>" + array + "</FieldData><Piece")), "accepted");
+  const auto many = replaced(array, "TimeValue\" NumberOfTuples=\"1\"", "TimeValue\" NumberOfTuples=\"900000000\"");
+  EXPECT_NE(refusal(replaced(small_volume(), "<Piece", "<FieldData>" + many + "</FieldData><Piece")), "accepted");
+}
+
+TEST(VtkFiles, AVolumeMayHaveNoCells) {
+  const auto counts = R"(NumberOfPoints="4" NumberOfCells="0")";
+  EXPECT_EQ(refusal(replaced(small_volume("", "", "", counts), ">2<", "><")), "accepted");
+}
+
 TEST(VtkFiles, SaysWhatKindOfFileItIsInstead) {
   expect_refusal("", "is empty; a VTK XML file of type UnstructuredGrid is needed");
   expect_refusal(" \n", "is empty");
