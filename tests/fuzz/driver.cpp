@@ -130,19 +130,20 @@ long peak_memory() {
   _exit(1);
 }
 
-/// Reads one file; true when it was accepted.
-bool accepted(const fs::path& file, const std::string& kind, Progress& progress) {
+/// Reads one file; why it is refused, empty when it is not.
+std::string refusal(const fs::path& file, const std::string& kind, Progress& progress) {
   try {
     read_one(file, kind);
-    return true;
-  } catch (const InputError&) {
-  } catch (const SolverError&) {
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const SolverError& error) {
+    return error.what();
   } catch (const std::exception& error) {
     fail(progress, std::string("another exception: ") + typeid(error).name() + ": " + error.what());
   } catch (...) {
     fail(progress, "an exception that is no std::exception");
   }
-  return false;
+  return {};
 }
 
 void set_timer(int seconds) {
@@ -169,15 +170,15 @@ void set_timer(int seconds) {
     const long memory = peak_memory();
     const auto start = Clock::now();
     set_timer(longest);
-    const bool read = accepted(file, in.kind, progress);
+    const auto refused = refusal(file, in.kind, progress);
     set_timer(0);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (!read && progress.next < corpus.size() && corpus[progress.next].whole)
-      fail(progress, "an entry of the corpus is refused");
+    if (!refused.empty() && progress.next < corpus.size() && corpus[progress.next].whole)
+      fail(progress, "of the corpus is refused: " + refused);
     if (peak_memory() - memory > most_memory)
       fail(progress, "takes " + std::to_string((peak_memory() - memory) / 1024) + " MiB of memory");
     if (options.leaks_each && leaks()) fail(progress, "leaks memory");
-    ++(read ? progress.read : progress.refused);
+    ++(refused.empty() ? progress.read : progress.refused);
     if (seconds > progress.slowest_seconds) progress.slowest_seconds = seconds, progress.slowest = progress.next;
   }
   progress.done = true;

@@ -17,9 +17,9 @@ void start_target() {
 }
 
 void read_one(const fs::path& file, const std::string& kind) {
-  mesh_io::GmshOptions gmsh{.metres_per_unit = 1e-3,
+  mesh_io::GmshOptions gmsh{.metres_per_unit = 1e-2,
                             .regions = {{"lumen", RegionKind::lumen}, {"wall", RegionKind::wall}}};
-  mesh_io::SimVascularOptions folder{.metres_per_unit = 1e-3};
+  mesh_io::SimVascularOptions folder{.metres_per_unit = 1e-2};
   if (kind == "gmsh_fields") gmsh.fields = {"e1"};
   if (kind.starts_with("gmsh")) {
     mesh_io::read_gmsh(file, gmsh);

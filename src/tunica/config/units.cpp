@@ -211,7 +211,7 @@ class UnitParser {
     if (at_ < text_.size() && text_[at_] == '^') {
       const char* begin = text_.data() + at_ + 1;
       const auto [stop, failure] = std::from_chars(begin, text_.data() + text_.size(), power);
-      if (failure != std::errc() || std::abs(power) > 9)
+      if (failure != std::errc() || power > 9 || power < -9)  // the absolute value of the smallest int is none
         return UnitError{fmt::format("power in unit `{}` is not a small integer", original_),
                          "write e.g. `cm^2`, `s^-1`"};
       at_ += 1 + (stop - begin);

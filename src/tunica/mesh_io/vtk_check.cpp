@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh_io/vtk_array_check.hpp"
@@ -166,11 +167,22 @@ class Check {
         cells += n;
       }
     }
+    check_names(piece);
     for (const auto& array : piece.arrays) {
       const std::string name(array.tag.attribute("Name"));
       if (std::find(wanted_.begin(), wanted_.end(), name) == wanted_.end()) continue;
       if (array.section == "PointData") check(array, points * components(array));
       if (array.section == "CellData") check(array, cells * components(array));
+    }
+  }
+
+  /// VTK replaces an array by the next one of its name, and then looks for as many as the file has.
+  void check_names(const Piece& piece) const {
+    std::set<std::pair<std::string, std::string_view>> seen;
+    for (const auto& array : piece.arrays) {
+      const auto name = array.tag.attribute("Name");
+      if (!name.empty() && !seen.emplace(array.section, name).second)
+        tags_.refuse(array.tag.begin, fmt::format("<{}> has its array {} twice", array.section, name));
     }
   }
 

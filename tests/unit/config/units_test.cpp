@@ -95,7 +95,8 @@ TEST(Units, SuggestsTheUnitThatWasMeant) {
 
 TEST(Units, RefusesAmbiguousAndBrokenTexts) {
   EXPECT_NE(refused("1 kg/m s", dimension::dynamic_viscosity).what.find("ambiguous"), std::string::npos);
-  for (const char* text : {"", "soft", "nan", "inf m", "1 m/", "1 m^x", "1 m^", "1 m*/s", "1..2 m", "1 m^99"})
+  for (const char* text : {"", "soft", "nan", "inf m", "1 m/", "1 m^x", "1 m^", "1 m*/s", "1..2 m", "1 m^99",
+                           "1 m^-2147483648", "1 m^2147483648"})
     refused(text, dimension::length);
 }
 

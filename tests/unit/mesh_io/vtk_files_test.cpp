@@ -234,6 +234,16 @@ TEST(VtkFiles, RefusesWhatLacksAnArrayOrHasItTwice) {
             "accepted");
 }
 
+TEST(VtkFiles, RefusesTwoArraysOfOneName) {
+  for (const char* name : {"size", "GlobalNodeID"}) {
+    auto content = written({});
+    const auto array = content.rfind("<DataArray", content.find(fmt::format("Name=\"{}\"", name)));
+    const auto end = content.find("</DataArray>", array) + 12;
+    content.insert(end, content.substr(array, end - array));
+    EXPECT_NE(refusal(content).find(fmt::format("has its array {} twice", name)), std::string::npos) << name;
+  }
+}
+
 // VTK writes beyond the end of an array of texts when there are more of them than its head says.
 TEST(VtkFiles, LeavesTextsOfTheFileAlone) {
   std::string texts;
