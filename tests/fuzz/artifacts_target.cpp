@@ -49,10 +49,10 @@ void start_target() {
 void read_one(const fs::path& file, const std::string& kind) {
   auto& c = context();
   if (kind == "checkpoint") {
-    artifacts::read_checkpoint(file, c.mesh, c.start, 42);
+    artifacts::read_checkpoint(file, c.mesh, c.start, 42, "remove it");
   } else if (kind == "start") {
     auto state = c.start;
-    artifacts::read_start(file, c.mesh, state, 42);
+    artifacts::read_start(file, c.mesh, state, 42, "remove it");
   } else if (kind == "prestress") {
     auto data = c.wall;
     artifacts::read_prestress(file, data);

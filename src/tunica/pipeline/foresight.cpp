@@ -255,7 +255,7 @@ case_file::Case posable_case(const Chain& chain) {
 
 void check_compared_regions(const Chain& chain, const Names& regions, Problems& problems) {
   for (const auto& [name, law] : chain.settings.compare)
-    for (const auto& [region, material] : law.regions)
+    for (const auto& [region, material] : law->regions)
       if (std::find(regions.begin(), regions.end(), region) == regions.end())
         problems.push_back({fmt::format("compare.{}.regions.{}", name, region),
                             "the mesh has no wall region of this name", "use one of: " + mesh::list_names(regions)});
