@@ -1,11 +1,10 @@
 // tunica material: a wall law in the tests of an experimenter.
-#include "tunica/stages/material/material.hpp"
-
 #include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "commands.hpp"
+#include "tunica/stages/material/commands.hpp"
 
 namespace tunica::app {
 

@@ -8,10 +8,9 @@
 
 #include "commands.hpp"
 #include "tunica/case/case.hpp"
+#include "tunica/case/descriptions.hpp"
 #include "tunica/case/fibres_case.hpp"
-#include "tunica/case/material_case.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
-#include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/report/report.hpp"
 
 namespace tunica::app {
@@ -31,8 +30,8 @@ void add_schema(CLI::App& app) {
     bool wanted = false;
   };
   const auto kinds = std::make_shared<std::vector<Kind>>(std::vector<Kind>{
-      {"material", [] { return Description(case_file::MaterialCase::schema().description()); }},
-      {"mesh", [] { return Description(case_file::MeshCase::schema().description()); }},
+      {"material", [] { return case_file::material_description(); }},
+      {"mesh", [] { return case_file::mesh_description(); }},
       {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},
       {"image", [] { return Description(stages::ScanCase::schema().description()); }},

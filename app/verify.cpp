@@ -1,10 +1,9 @@
 // tunica verify: the dispersed fibres against their analytic solution.
-#include "tunica/stages/material/verify.hpp"
-
 #include <memory>
 
 #include "commands.hpp"
 #include "tunica/parallel/petsc.hpp"
+#include "tunica/stages/material/commands.hpp"
 
 namespace tunica::app {
 

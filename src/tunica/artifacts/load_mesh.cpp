@@ -16,7 +16,6 @@
 #include "tunica/mesh_io/gmsh.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
-#include "tunica/wall/parameters.hpp"
 
 namespace tunica::artifacts {
 
@@ -180,19 +179,15 @@ CheckedMesh load_mesh(const case_file::Case& c) {
   if (c.mesh || c.fibres)
     throw InputError(c.mesh ? "mesh" : "fibres", "is a stage to be done first, which `tunica run` alone does",
                      "use `tunica run`, or the case file in the folder of a stage that it has made");
-  const bool needs_frames = c.wall && c.wall->fibre_frame;
   std::vector<Problem> problems;
-  CheckedMesh mesh = read_and_measure(
-      c.meshes,
-      {needs_frames ? wall::frame_arrays(*c.wall->fibre_frame) : std::vector<std::string>{}, support_arrays(c)},
-      problems);
+  CheckedMesh mesh = read_and_measure(c.meshes, {c.frame_arrays(), support_arrays(c)}, problems);
   const auto wrong = check_faces(c, faces_of(mesh.data));
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   // The wall's nodes of the interface were moved onto the lumen's, a prestress of the wall alone knows them where they
   // were.
   const double moved = c.meshes.interface ? c.meshes.interface->tolerance : 0.0;
-  if (c.wall && c.wall->prestress)
-    collect(problems, [&] { read_prestress(*c.wall->prestress, mesh.data, std::max(0.01, 2 * moved)); });
+  if (const auto prestress = c.prestress_file())
+    collect(problems, [&] { read_prestress(*prestress, mesh.data, std::max(0.01, 2 * moved)); });
   if (!problems.empty()) throw InputError(std::move(problems));
   // A mesh in the wrong unit makes every flow through it unusual: one warning is enough.
   if (!mesh::implausible_size(mesh.data, {}))

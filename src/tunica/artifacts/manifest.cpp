@@ -61,6 +61,11 @@ ordered_json read_manifest(const fs::path& file) {
   return ordered_json::parse(in, nullptr, false);
 }
 
+bool has_runs(const ordered_json& manifest) {
+  if (!manifest.is_object() || !manifest.contains("runs")) return false;
+  return manifest["runs"].is_array() && !manifest["runs"].empty();
+}
+
 /// Does a folder hold what only a run leaves?
 bool has_traces(const fs::path& folder) {
   const bool histories = fs::exists(folder / "steps.csv") && fs::exists(folder / "balance.csv");
@@ -92,7 +97,7 @@ Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool contin
     : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(files::time_stamp()) {
   if (!continued || !fs::exists(file_)) return;
   const ordered_json earlier = read_manifest(file_);
-  if (earlier.is_object()) earlier_runs_ = earlier.value("runs", ordered_json::array()).dump();
+  if (has_runs(earlier)) earlier_runs_ = earlier["runs"].dump();
 }
 
 void Manifest::write(const ManifestProgress& p) {
@@ -152,6 +157,7 @@ std::optional<EarlierResults> find_results(const fs::path& folder) {
     results.regions = series_in(folder);
     return results;
   }
+  if (!has_runs(json)) not_ours(file);
   try {
     EarlierResults results;
     results.case_hash = from_hex(json.at("case").at("hash"));
@@ -171,7 +177,7 @@ std::optional<EarlierResults> find_results(const fs::path& folder) {
 void record_end(const fs::path& folder, const std::string& status, const std::string& message) {
   const fs::path file = folder / file_name;
   ordered_json json = read_manifest(file);
-  if (!json.is_object() || !json.contains("runs") || !json["runs"].is_array() || json["runs"].empty()) return;
+  if (!has_runs(json)) return;
   ordered_json& run = json["runs"].back();
   if (!run.is_object() || run.value("status", "") != "running") return;
   run["status"] = status;

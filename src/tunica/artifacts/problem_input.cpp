@@ -1,7 +1,6 @@
 #include "tunica/artifacts/problem_input.hpp"
 
 #include "tunica/artifacts/load_mesh.hpp"
-#include "tunica/wall/parameters.hpp"
 
 namespace tunica::artifacts {
 
@@ -12,7 +11,7 @@ coupling::ProblemInput problem_input(const case_file::Case& c) {
   if (c.mesh_motion) input.mesh_motion = *c.mesh_motion;
   input.boundary.conditions = c.boundary;
   input.boundary.interfaces = interface_pairs(c.meshes);
-  input.boundary.wall_has_pressure = c.wall && c.wall->element == wall::Element::mixed;
+  input.boundary.wall_has_pressure = c.wall_has_pressure();
   input.boundary.fluid = c.fluid;
   if (c.time) input.rho_infinity = c.time->rho_infinity;
   input.newton = c.newton;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "tunica/base/error.hpp"
@@ -124,7 +126,7 @@ std::string read(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) throw InputError(name, "is a folder, a file is due", remedy);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(name, "does not exist or cannot be read", remedy);
+  if (!stream) throw InputError(name, fmt::format("cannot be read: {}", std::strerror(errno)), remedy);
   std::string bytes;
   for (char part[65536]; stream.read(part, sizeof part), stream.gcount() > 0;) {
     bytes.append(part, static_cast<std::size_t>(stream.gcount()));

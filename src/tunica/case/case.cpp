@@ -352,6 +352,14 @@ bool Case::solves_fluid() const {
 
 bool Case::finds_prestress() const { return prestress && !(wall && wall->prestress); }
 
+bool Case::wall_has_pressure() const { return wall && wall->element == wall::Element::mixed; }
+
+std::vector<std::string> Case::frame_arrays() const {
+  return wall && wall->fibre_frame ? wall::frame_arrays(*wall->fibre_frame) : std::vector<std::string>();
+}
+
+std::optional<std::filesystem::path> Case::prestress_file() const { return wall ? wall->prestress : std::nullopt; }
+
 bool Case::solves_wall() const { return !std::holds_alternative<RigidFlow>(analysis); }
 
 Schema<Case> Case::schema() {

@@ -133,6 +133,9 @@ struct Case {
   bool finds_prestress() const;
   bool solves_fluid() const;
   bool solves_wall() const;
+  bool wall_has_pressure() const;                               ///< as an unknown
+  std::vector<std::string> frame_arrays() const;                ///< cell arrays that its fibre frames are read from
+  std::optional<std::filesystem::path> prestress_file() const;  ///< of the wall
   static config::Schema<Case> schema();
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/case/descriptions.hpp"
 #include "tunica/case/keys.hpp"
 
 namespace tunica::case_file {
@@ -235,5 +236,7 @@ Schema<MaterialCase> MaterialCase::schema() {
 config::Parsed<MaterialCase> read_material_case(const std::filesystem::path& file) {
   return config::parse_file(MaterialCase::schema(), file);
 }
+
+std::shared_ptr<const config::Description> material_description() { return MaterialCase::schema().description(); }
 
 }  // namespace tunica::case_file

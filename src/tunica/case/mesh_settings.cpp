@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "tunica/case/descriptions.hpp"
 #include "tunica/geometry/parametric_dissection.hpp"
+#include "tunica/meshing/geometry.hpp"
 
 namespace tunica::case_file {
 
@@ -46,6 +48,7 @@ Schema<case_file::MeshCase> case_file::MeshCase::schema() {
       .text("title", &case_file::MeshCase::title, "Free text for logs and reports")
       .by_default()
       .section("geometry", &case_file::MeshCase::geometry, meshing::geometry_schema(), "What is meshed")
+      .required()
       .section("size", &case_file::MeshCase::size, size_schema(), "How fine")
       .by_default("medium")
       .integer("elements_through_wall", &case_file::MeshCase::elements_through_wall, config::range(1, 2),
@@ -61,5 +64,7 @@ Schema<case_file::MeshCase> case_file::MeshCase::schema() {
 config::Parsed<case_file::MeshCase> read_mesh_case(const std::filesystem::path& file) {
   return config::parse_file(case_file::MeshCase::schema(), file);
 }
+
+std::shared_ptr<const config::Description> mesh_description() { return MeshCase::schema().description(); }
 
 }  // namespace tunica::case_file

@@ -6,10 +6,14 @@
 #include <string>
 #include <variant>
 
+#include "tunica/base/boxed.hpp"
 #include "tunica/config/schema.hpp"
 #include "tunica/geometry/size_field.hpp"
 #include "tunica/meshing/boundary_layers.hpp"
-#include "tunica/meshing/geometry.hpp"
+
+namespace tunica::meshing {
+struct Geometry;  // meshing/geometry.hpp
+}
 
 namespace tunica::case_file {
 
@@ -23,7 +27,7 @@ geometry::SizeSettings size_settings(double edge);
 
 struct MeshCase {
   std::string title;
-  meshing::Geometry geometry;
+  Boxed<meshing::Geometry> geometry;
   Size size = Medium{};
   int elements_through_wall = 1;
   std::optional<meshing::BoundaryLayers> boundary_layers;

@@ -324,6 +324,11 @@ class Schema {
     last().required = false;
     return *this;
   }
+  /// The key must be there, although its member could be empty.
+  Schema& required() {
+    last().required = true;
+    return *this;
+  }
   /// Outside of these a warning is given, with the unit that was likely meant.
   Schema& plausible(std::string_view low, std::string_view high) {
     const Dimension& d = last().dimension;

@@ -133,6 +133,8 @@ const WallModel& Problem::wall_model() const {
   return wall_->model;
 }
 
+std::vector<std::string> Problem::notes() const { return wall_ ? wall_->model.notes() : std::vector<std::string>(); }
+
 void Problem::set_prestress(WallPrestress prestress) {
   assert(wall_);
   wall_->model.set_prestress(std::move(prestress), wall_->groups);

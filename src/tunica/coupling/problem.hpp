@@ -105,6 +105,8 @@ class Problem {
   const Boundaries& boundaries() const { return boundaries_; }
   /// Only with a wall.
   const WallModel& wall_model() const;
+  /// What a log should say of its laws: one line each; empty without a wall.
+  std::vector<std::string> notes() const;
   const distributed::DistributedMesh& mesh() const { return mesh_; }
   const ProblemInput& input() const { return input_; }
   bool moving() const { return mesh_motion_.has_value() || input_.mesh_displacement; }

@@ -170,9 +170,9 @@ std::string column_remedy(std::size_t cells, std::size_t headers, char separator
 }  // namespace
 
 std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  std::string all;
+  for (const auto& name : names) all += (all.empty() ? "" : ", ") + text::printable(name, 60);
+  return all;
 }
 
 std::vector<TextLine> read_lines(const std::filesystem::path& file, const std::string& remedy) {

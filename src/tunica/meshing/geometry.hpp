@@ -22,7 +22,10 @@ struct SurfaceFiles {
   static config::Schema<SurfaceFiles> schema();
 };
 
-using Geometry = std::variant<geometry::ParametricDissection, SurfaceFiles, ImageGeometry>;
+/// One of them. A type of its own, so that the case file can hold one without knowing them.
+struct Geometry : std::variant<geometry::ParametricDissection, SurfaceFiles, ImageGeometry> {
+  using variant::variant;
+};
 config::Schema<Geometry> geometry_schema();
 
 /// Surfaces of lumen and wall, and what their openings are.

@@ -16,6 +16,7 @@
 #include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/meshing/assemble.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/meshing/vessel_roles.hpp"
 #include "tunica/meshing/wall_regions.hpp"
 #include "tunica/stages/fibres/fibres.hpp"
@@ -191,7 +192,7 @@ void check_faces_to_come(const case_file::Case& chain_case, Problems& problems) 
   c.meshes.interface = case_file::InterfaceSettings{{meshing::lumen_interface}, {meshing::wall_interface}};
   Names openings;
   collect(problems, "mesh.geometry: ", [&] {
-    openings = std::visit([&](const auto& geometry) { return openings_of(geometry, c); }, c.mesh->geometry);
+    openings = std::visit([&](const auto& geometry) { return openings_of(geometry, c); }, *c.mesh->geometry);
   });
   check_region_names(c, problems);
   if (openings.empty()) return;

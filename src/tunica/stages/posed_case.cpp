@@ -22,6 +22,19 @@ namespace fs = std::filesystem;
 namespace {
 
 /// As read_start(), with the key in messages and what to do about it.
+std::vector<artifacts::OutletStart> read_named_start(const fs::path& file, const distributed::DistributedMesh& mesh,
+                                                     std::uint64_t mesh_hash, coupling::State& state) {
+  try {
+    return artifacts::read_start(
+        file, mesh, state, mesh_hash,
+        "name the start.checkpoint of this mesh in `start`, or find it anew: tunica prestress CASE --overwrite");
+  } catch (const InputError& error) {
+    auto problems = error.problems();
+    for (auto& p : problems) p.where = fmt::format("start ({})", p.where);
+    throw InputError(std::move(problems));
+  }
+}
+
 /// Tables that end before the run, or that do not hold the instant of the prestress.
 void check_tables(const case_file::Case& c, const mesh::MeshData& data) {
   auto problems = case_file::check_table_ends(c.boundary, case_file::asked_by_run(c));
@@ -67,9 +80,7 @@ void PosedCase::pose(const ReadCase& c, MPI_Comm comm) {
 
 void start_from(const fs::path& file, const case_file::Case& c, const distributed::DistributedMesh& mesh,
                 std::uint64_t mesh_hash, coupling::State& state) {
-  const auto outlets = artifacts::read_start(
-      file, mesh, state, mesh_hash,
-      "name the start.checkpoint of this mesh in `start`, or find it anew: tunica prestress CASE --overwrite");
+  const auto outlets = read_named_start(file, mesh, mesh_hash, state);
   for (auto& outlet : state.outlets) {
     const auto found =
         std::find_if(outlets.begin(), outlets.end(), [&](const auto& o) { return o.face == outlet.face(); });

@@ -96,7 +96,7 @@ TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWorkOrServeEverywhere) {
     expect_printed(std::string(name)[0] == 'M' ? "o.csv, line 3" : "o.csv:3");
     EXPECT_EQ(printed().find("remeshing"), std::string::npos) << printed();
   }
-  EXPECT_FALSE(fs::exists(folder_ / "mesh"));
+  EXPECT_FALSE(fs::exists(folder_ / "mesh/lumen"));
 
   // The same in a case of several stages, for which a table says what faces there will be.
   const std::string staged =

@@ -201,8 +201,7 @@ TEST(WaveformFile, CsvWithColumnsUnitsAndComments) {
 }
 
 TEST(WaveformFile, ErrorsNameFileAndLine) {
-  EXPECT_TRUE(
-      contains(message(TableFile{.path = "/nowhere/q.csv"}), "/nowhere/q.csv: does not exist or cannot be read"));
+  EXPECT_TRUE(contains(message(TableFile{.path = "/nowhere/q.csv"}), "/nowhere/q.csv: cannot be read: No such file"));
   EXPECT_TRUE(contains(message(TableFile{.path = "/nowhere/q.txt"}), "format"));
   const struct {
     const char *text, *expected;

@@ -93,7 +93,7 @@ TEST(MaterialCase, SaysWhatIsNoTest) {
             {"tests: {a: {biaxial: {to: 2, ratio: -1}}}", "smaller than 0.05"},
             {"tests: {a: {gradients: {list: [[1, 0, 0, 0, 1, 0, 0, 0, -1]]}}}", "has the determinant -1"},
             {"tests: {a: {gradients: {}}}", "no deformation gradient is given"},
-            {"tests: {a/b: {uniaxial: {to: 2}}}", "is no name of a file"},
+            {"tests: {a/b: {uniaxial: {to: 2}}}", "has the character '/'"},
             {"tests: {}", "is empty"},
             {"tests: {a: {uniaxial: {to: 2}}}\noutput: {stress: mm}", "stress"}});
   expect_refused<MaterialCase>("material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.5}}\n",

@@ -6,6 +6,7 @@
 #include "small_cases.hpp"
 #include "tunica/assembly/linear_solver.hpp"
 #include "tunica/coupling/wall_model.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::coupling {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "small_cases.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::coupling {
 namespace {

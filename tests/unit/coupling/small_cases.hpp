@@ -9,8 +9,12 @@
 #include "tunica/coupling/problem.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
-#include "tunica/wall/parameters.hpp"
 #include "unit/assembly/numbers.hpp"
+
+namespace tunica::wall {
+enum class Element;
+struct Parameters;  // wall/parameters.hpp
+}  // namespace tunica::wall
 
 namespace tunica::test {
 
@@ -28,16 +32,7 @@ inline mesh::MeshData fsi_tube() { return mesh::tube(tube_sizes(0.002)); }
 
 inline fluid::Parameters blood() { return {.density = 1060, .viscosity = fluid::Newtonian{4e-3}}; }
 
-inline wall::Parameters soft_wall(wall::Element element) {
-  wall::Parameters p;
-  p.element = element;
-  p.density = 1100;
-  p.volumetric_energy = wall::VolumetricEnergy::miehe;
-  auto& elastic = std::get<0>(p.material).elastic;
-  elastic.young_modulus = 4e5;
-  elastic.poisson_ratio = element == wall::Element::mixed ? 0.45 : 0.3;
-  return p;
-}
+wall::Parameters soft_wall(wall::Element element);
 
 inline bc::Condition pressure(double value) { return bc::Pressure{bc::WaveformInput{value}}; }
 inline bc::Condition fixed_along_axes(bool x, bool y, bool z) {
@@ -52,21 +47,7 @@ inline bc::Condition fixed_along_normal() {
 }
 
 /// Tube with a wall that is held at its ends: `inlet` and `outlet` are the conditions of the lumen's openings.
-inline coupling::ProblemInput fsi_input(bc::Condition inlet, bc::Condition outlet) {
-  coupling::ProblemInput in;
-  in.fluid = blood();
-  in.wall = soft_wall(wall::Element::mixed);
-  in.boundary.fluid = in.fluid;
-  in.boundary.interfaces = {{"lumen_wall", "wall_inner"}};
-  in.boundary.conditions = {{"lumen_inlet", std::move(inlet)},
-                            {"lumen_outlet", std::move(outlet)},
-                            {"wall_inlet", bc::Fixed{}},
-                            {"wall_outlet", bc::Fixed{}},
-                            {"wall_outer", bc::Support{.stiffness = 1e7, .damping = 1e3}}};
-  in.newton.relative_tolerance = 1e-6;
-  in.linear.tolerance = in.linear.first_tolerance = 1e-6;
-  return in;
-}
+coupling::ProblemInput fsi_input(bc::Condition inlet, bc::Condition outlet);
 
 /// Fields as a step would see them. Twins repeat the motion of their hosts.
 struct Fields {

@@ -61,8 +61,8 @@ TEST_F(Files, TablesThatAreNoneAreRefusedWithTheirLine) {
   EXPECT_TRUE(says(refusal("t,flow\n1,2\n3,4,5\n"), "a.csv:3"));
   EXPECT_TRUE(says(refusal("t,flow\n1,2 ml\n"), "a.csv:2: '2 ml' under 'flow' is not a number"));
   EXPECT_TRUE(says(refusal("t,flow\n1,\n"), "'' under 'flow' is not a number"));
-  EXPECT_TRUE(says(refusal("t,Flow\n1,2\n"), "no column is called 'flow'"));
-  EXPECT_TRUE(says(refusal("t,Flow\n1,2\n"), "choose from: t, Flow"));
+  EXPECT_TRUE(says(refusal("t,Fluss\n1,2\n"), "no column is called 'flow'"));
+  EXPECT_TRUE(says(refusal("t,Fluss\n1,2\n"), "choose from: t, Fluss"));
   EXPECT_TRUE(says(refusal("# nothing\n"), "give a table of flows"));
   EXPECT_TRUE(
       says(message_of<InputError>([&] { read_csv(folder_.path() / "none.csv", "give one"); }), "cannot be read"));

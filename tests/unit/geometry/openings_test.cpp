@@ -111,9 +111,9 @@ TEST(OpeningNames, ReadFromTable) {
       says(why("name,centre_x,centre_y,centre_z\na,1,2,3\na,1,2,3\n"), "a.csv:3: the name 'a' is there already"));
   EXPECT_TRUE(says(why("name,centre_x,centre_y,centre_z\n"), "names no opening"));
   EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path / "none.csv", 1); }), "cannot be read"));
-  EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path, 1); }), "cannot be read"));
-  EXPECT_TRUE(says(why(std::string(20000, 'x')), "line 1: is no line of a table"));
-  EXPECT_TRUE(says(why(std::string("name\0", 5)), "line 1: is no line of a table"));
+  EXPECT_TRUE(says(message_of<InputError>([&] { read_opening_names(folder.path, 1); }), "is a folder"));
+  EXPECT_TRUE(says(why(std::string(20000, 'x')), "no column is called 'name'"));
+  EXPECT_TRUE(says(why(std::string("name\0", 5)), "line 1, column 5: holds the control character 0x00"));
 }
 
 TEST(OpeningNames, WhatExcelMakesOfTheTableReadsAlike) {

@@ -9,6 +9,7 @@
 
 #include "shared_folder.hpp"
 #include "tunica/files/csv_file.hpp"
+#include "tunica/stages/material/commands.hpp"
 
 namespace tunica::stages {
 namespace {

@@ -11,6 +11,7 @@
 #include "tunica/frames/frames.hpp"
 #include "tunica/frames/tears.hpp"
 #include "tunica/geometry/dissection_model.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "verification/frames/angles.hpp"
 
@@ -35,7 +36,7 @@ const geometry::ParametricDissection& shape() {
 mesh::MeshData make_data(const case_file::Size& size) {
   return parallel::on_root(MPI_COMM_WORLD, [&] {
     case_file::MeshCase c;
-    c.geometry = shape();
+    c.geometry = meshing::Geometry(shape());
     c.size = size;
     return stages::make_mesh(c, [](const std::string&) {}).data;
   });

@@ -12,6 +12,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/geometry/dissection_model.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 
 namespace tunica::stages {
@@ -45,7 +46,7 @@ struct Result {
 
 Result make(const geometry::ParametricDissection& shape, const case_file::Size& size, int elements_through_wall = 1) {
   case_file::MeshCase mesh_case;
-  mesh_case.geometry = shape;
+  mesh_case.geometry = meshing::Geometry(shape);
   mesh_case.size = size;
   mesh_case.elements_through_wall = elements_through_wall;
   auto made = make_mesh(mesh_case, silent);

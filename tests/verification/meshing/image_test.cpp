@@ -13,6 +13,7 @@
 #include "tunica/geometry/triangle_tree.hpp"
 #include "tunica/imaging/label_surface.hpp"
 #include "tunica/imaging/synthetic_scan.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 
 namespace tunica::stages {
@@ -181,7 +182,7 @@ TEST(LabelledImage, BecomesAMeshWithAGrownWall) {
   geometry.surface.openings = {{"in", {{{0, 0, -tube_half}}, {}}}, {"out", {{{0, 0, tube_half}}, {}}}};
   geometry.aorta_ends = {"out"};
   geometry.wall.thinnest = geometry.wall.thickest = 1.5e-3;
-  mesh_case.geometry = geometry;
+  mesh_case.geometry = meshing::Geometry(geometry);
   mesh_case.size = 3e-3;
   const auto made = make_mesh(mesh_case, [](const std::string&) {});
   std::filesystem::remove(file);

@@ -10,6 +10,7 @@
 
 #include "tunica/geometry/surface_file.hpp"
 #include "tunica/geometry/surface_mending.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/meshing/grown_wall.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 
@@ -68,13 +69,13 @@ geometry::TriangleSurface face(const mesh::MeshData& data, const std::string& na
 
 TEST_F(Patient, MeshKeepsVolumesShapeAndTopology) {
   case_file::MeshCase mesh_case;
-  mesh_case.geometry = meshing::SurfaceFiles{.lumen = folder / "lumen_surface.vtp",
-                                             .false_lumen = {},
-                                             .outer_wall = folder / "outer_wall_surface.vtp",
-                                             .openings = folder / "openings.csv",
-                                             .metres_per_unit = 1e-3,
-                                             .roles = {},
-                                             .wall = {}};
+  mesh_case.geometry = meshing::Geometry(meshing::SurfaceFiles{.lumen = folder / "lumen_surface.vtp",
+                                                               .false_lumen = {},
+                                                               .outer_wall = folder / "outer_wall_surface.vtp",
+                                                               .openings = folder / "openings.csv",
+                                                               .metres_per_unit = 1e-3,
+                                                               .roles = {},
+                                                               .wall = {}});
   mesh_case.size = case_file::Medium{};
   const auto made = make_mesh(mesh_case, [](const std::string& line) { fmt::print("{}\n", line); });
   fmt::print("{}\n", made.report_text);

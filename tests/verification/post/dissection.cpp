@@ -4,6 +4,7 @@
 
 #include "run_and_post.hpp"
 #include "tunica/files/csv_file.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "verification/fluid/flow_case.hpp"
 
@@ -17,7 +18,7 @@ constexpr const char* outlets[] = {"brachiocephalic", "left_common_carotid", "le
 void make_mesh(const test::SharedFolder& folder) {
   parallel::on_root(MPI_COMM_WORLD, [&] {
     case_file::MeshCase c;
-    c.geometry = config::parse_text(geometry::ParametricDissection::schema(), "{}").value;
+    c.geometry = meshing::Geometry(config::parse_text(geometry::ParametricDissection::schema(), "{}").value);
     c.size = case_file::Coarse{};
     c.output = folder.path() / "mesh";
     stages::mesh_to_files(c, false, [](const std::string&) {});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tunica/files/outputs.hpp"
+#include "tunica/imaging/synthetic_scan.hpp"
 
 namespace tunica::stages {
 
@@ -27,7 +28,7 @@ std::string scan_to_file(const ScanCase& scan_case, bool overwrite) {
     throw InputError(scan_case.output.string(), "is there already", "give --overwrite, or another `output`");
   if (const auto folder = scan_case.output.parent_path(); !folder.empty()) files::make_folder(folder);
   files::try_output(scan_case.output);
-  const geometry::DissectionModel model(scan_case.parametric);
+  const geometry::DissectionModel model(*scan_case.parametric);
   imaging::write_label_image(scan(model, scan_case.scan), scan_case.output);
   std::string text =
       fmt::format("geometry:\n  image:\n    file: {}\n    true_lumen: {}\n    false_lumen: {}\n    openings:\n",

@@ -4,13 +4,18 @@
 #include <filesystem>
 #include <string>
 
+#include "tunica/base/boxed.hpp"
 #include "tunica/config/schema.hpp"
-#include "tunica/imaging/synthetic_scan.hpp"
+#include "tunica/imaging/scan_settings.hpp"
+
+namespace tunica::geometry {
+struct ParametricDissection;  // geometry/parametric_dissection.hpp
+}
 
 namespace tunica::stages {
 
 struct ScanCase {
-  geometry::ParametricDissection parametric;
+  Boxed<geometry::ParametricDissection> parametric;
   imaging::ScanSettings scan;
   std::filesystem::path output;
 

@@ -12,6 +12,7 @@
 #include "tunica/files/csv_file.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
+#include "tunica/stages/material/commands.hpp"
 
 namespace tunica::stages {
 

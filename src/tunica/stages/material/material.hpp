@@ -37,9 +37,4 @@ struct Deviation {
 };
 Deviation deviation(const std::vector<double>& curve, const std::vector<double>& measured);
 
-/// Runs all tests, writes <test>.csv and <test>.svg (or .png) into the folder of results and a summary to `screen`.
-/// Throws InputError, SolverError.
-void run_material(const std::filesystem::path& file, const std::optional<std::filesystem::path>& directory,
-                  std::FILE* screen);
-
 }  // namespace tunica::stages

@@ -13,6 +13,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/stages/material/commands.hpp"
 #include "tunica/stages/material/material.hpp"
 
 namespace tunica::stages {

@@ -31,9 +31,4 @@ struct Comparison {
 /// relative to the largest stress of the curve, and pointwise for the sum.
 std::vector<Comparison> compare(const VerifiedCase& c);
 
-/// Runs both tests; writes uniaxial.csv, shear.csv, comparisons.csv, uniaxial.svg, shear.svg into `folder` and a table
-/// to `screen`. True when every comparison passed. For one rank, within a parallel::Session. Throws InputError,
-/// SolverError.
-bool verify(const std::filesystem::path& folder, std::FILE* screen);
-
 }  // namespace tunica::stages

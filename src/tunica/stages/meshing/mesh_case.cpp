@@ -16,6 +16,7 @@
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/meshing/fidelity.hpp"
+#include "tunica/meshing/geometry.hpp"
 #include "tunica/meshing/improve.hpp"
 #include "tunica/meshing/layers.hpp"
 #include "tunica/meshing/mesh_report.hpp"
@@ -53,7 +54,7 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   options.log = tell;
   options.spots = mesh_case.output / "problems.vtp";
   phases.begin("surfaces");
-  const auto geometry = meshing::surfaces_of(mesh_case.geometry, options);
+  const auto geometry = meshing::surfaces_of(*mesh_case.geometry, options);
   options.lumen_parts = geometry.lumen_parts;
   phases.begin("remeshing");
   const auto prepared = meshing::patient_complex(geometry.surfaces, options);

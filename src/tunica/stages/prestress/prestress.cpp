@@ -19,7 +19,6 @@
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/prestress.hpp"
-#include "tunica/coupling/wall_model.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
@@ -446,7 +445,7 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
 void PrestressRun::find_wall() {
   wall_ = distributed::distribute(wall_part_.data, comm_);
   coupling::Problem problem(wall_, wall_input());
-  for (const auto& line : problem.wall_model().notes()) log_->info(line);
+  for (const auto& line : problem.notes()) log_->info(line);
   if (case_.solves_fluid()) {
     problem.set_nodal_forces(forces_beside_pressure());
     write_traction(problem);

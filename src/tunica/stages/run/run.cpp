@@ -15,7 +15,6 @@
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/monitors.hpp"
-#include "tunica/coupling/wall_model.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
@@ -26,7 +25,6 @@
 #include "tunica/stages/run/adaptive_steps.hpp"
 #include "tunica/stages/run/cycles.hpp"
 #include "tunica/stages/run/restart.hpp"
-#include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
 
@@ -218,8 +216,7 @@ void Run::pose() {
 void Run::describe_problem() {
   log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
                          plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
-  if (problem_->input().wall)
-    for (const auto& line : problem_->wall_model().notes()) log_->info(line);
+  for (const auto& line : problem_->notes()) log_->info(line);
   if (case_.start && !continued()) log_->info(fmt::format("starting from {}", case_.start->string()));
 }
 

@@ -1,9 +1,8 @@
 // Planted for the test of the include check; never compiled.
 #pragma once
 
-#include <mpi.h>
-#include <petscvec.h>
-
-#include "tunica/assembly/newton.hpp"
 #include "tunica/wall/kinematics.hpp"
+#include "tunica/assembly/newton.hpp"
+#include <petscvec.h>
+#  include <mpi.h>
 #include "viscosity.hpp"

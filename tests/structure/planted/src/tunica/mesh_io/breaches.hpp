@@ -1,5 +1,5 @@
 // Planted for the test of the include check; never compiled.
 #pragma once
 
-#include <CGAL/Mesh_3/config.h>
 #include <vtkPoints.h>
+#include <CGAL/Mesh_3/config.h>
