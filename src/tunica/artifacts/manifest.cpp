@@ -97,7 +97,9 @@ Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool contin
     : file_(folder / file_name), head_(head), earlier_runs_("[]"), started_(files::time_stamp()) {
   if (!continued || !fs::exists(file_)) return;
   const ordered_json earlier = read_manifest(file_);
-  if (has_runs(earlier)) earlier_runs_ = earlier["runs"].dump();
+  if (earlier.is_discarded()) return;  // after a loss of power: what it told of earlier runs is lost
+  if (!has_runs(earlier)) not_ours(file_);
+  earlier_runs_ = earlier["runs"].dump();
 }
 
 void Manifest::write(const ManifestProgress& p) {

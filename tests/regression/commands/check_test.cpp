@@ -60,7 +60,7 @@ TEST_F(Check, FindsWhatARunRefuses) {
                 "wall.regions.flop: the mesh has no wall region"},
            Flaw{"cylindrical: {}", "mesh: {e1: e1, e2: e2}", "brings no element values called 'e"},
            Flaw{"cylindrical: {}", "constant: {e1: [1, 0, 0], e2: [2, 0, 0]}", "parallel"},
-           Flaw{"directory: results", "directory: a_file/results", "the folder of results cannot be made"},
+           Flaw{"directory: results", "directory: a_file/results", "cannot be made"},
        })
     expect_refused(tube, flaw);
   write("case.yaml", tube);
