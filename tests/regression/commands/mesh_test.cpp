@@ -1,4 +1,5 @@
 // `tunica mesh`: exit codes, and the example of a dissection from its geometry to a first step of blood and wall.
+#include "folders.hpp"
 #include "program.hpp"
 
 namespace tunica::test {

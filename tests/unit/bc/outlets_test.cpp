@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "folders.hpp"
 #include "tunica/base/error.hpp"
 
 namespace {

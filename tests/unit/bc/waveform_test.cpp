@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "folders.hpp"
 #include "tunica/base/error.hpp"
 
 namespace {

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "folders.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/case/fibres_case.hpp"

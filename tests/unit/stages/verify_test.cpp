@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "folders.hpp"
 #include "tunica/fe/tetrahedron.hpp"
 #include "tunica/files/csv_file.hpp"
 

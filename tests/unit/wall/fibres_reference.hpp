@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "folders.hpp"
 #include "tunica/wall/fibres/directions.hpp"
 
 namespace tunica::wall::test {

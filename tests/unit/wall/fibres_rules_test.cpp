@@ -9,6 +9,7 @@
 #include <random>
 
 #include "fibres_reference.hpp"
+#include "folders.hpp"
 #include "tunica/wall/fibres/directions.hpp"
 
 namespace tunica::wall {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "folders.hpp"
 #include "tunica/coupling/problem.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/fe/tetrahedron.hpp"

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "folders.hpp"
 #include "tunica/geometry/surface_file.hpp"
 #include "tunica/geometry/surface_mending.hpp"
 #include "tunica/meshing/geometry.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "folders.hpp"
 #include "verification/wall/banded_newton.hpp"
 
 namespace tunica::verification {

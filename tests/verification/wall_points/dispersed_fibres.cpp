@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "folders.hpp"
 #include "tunica/wall/material_paths.hpp"
 #include "unit/wall/fibres_reference.hpp"
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "folders.hpp"
 #include "tunica/wall/material.hpp"
 #include "tunica/wall/output.hpp"
 
