@@ -11,7 +11,7 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")  # the sanitisers make optimised vector code
 
 find_program(TUNICA_CCACHE ccache)
 if(TUNICA_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} ${TUNICA_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${TUNICA_CCACHE})
 endif()
 
 add_library(tunica_flags INTERFACE)
