@@ -30,6 +30,7 @@ TEST(Manifest, TellsWhatIsThere) {
 TEST(Manifest, RefusesAnythingElse) {
   const SharedFolder folder;
   const auto refusal = [&](const std::string& text, const auto& read) {
+    MPI_Barrier(MPI_COMM_WORLD);  // until all have read the one before
     folder.write("manifest.json", text);
     return message_of<InputError>(read);
   };
