@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "small_vessels.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/generate.hpp"
 
@@ -15,22 +16,8 @@ namespace {
 
 mesh::MeshData box() { return mesh::box(4, 3, 5, {{1, 2, 3}}, mesh::RegionKind::lumen); }
 
-template <class F>
-std::vector<double> nodal(const mesh::MeshData& data, const F& function) {
-  std::vector<double> values;
-  for (const auto& x : data.points) values.push_back(function(x));
-  return values;
-}
-
-template <class F>
-std::vector<double> nodal_vectors(const mesh::MeshData& data, const F& function) {
-  std::vector<double> values;
-  for (const auto& x : data.points) {
-    const Vec3<double> v = function(x);
-    values.insert(values.end(), v.x, v.x + 3);
-  }
-  return values;
-}
+using testing::nodal;
+using testing::nodal_vectors;
 
 std::vector<CutTriangle> cut(const mesh::MeshData& data, const std::vector<double>& f, double level) {
   std::vector<CutTriangle> surface;
