@@ -9,11 +9,15 @@ namespace tunica::assembly {
 
 namespace {
 Isa widest() {
+#ifdef TUNICA_BASELINE_ISA
+  return Isa::sse2;
+#else
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     return Isa::avx512;
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
   return Isa::sse2;
+#endif
 }
 }  // namespace
 
