@@ -89,23 +89,28 @@ TUNICA_INLINE void to_lanes(const Pack<W>& p0, const Pack<W>& p1, const Pack<W>&
   }
 }
 
+/// r[node][4] += four packs of the used lanes, for one node of each element.
+template <int W>
+TUNICA_INLINE void scatter_node(const Pack<W>& p0, const Pack<W>& p1, const Pack<W>& p2, const Pack<W>& p3,
+                                const std::int32_t* nodes, int used, double* r) {
+  BatchDouble4 value[W];
+  to_lanes<W>(p0, p1, p2, p3, value);
+#pragma GCC unroll 8
+  for (int lane = 0; lane < W; ++lane) {
+    if (lane >= used) break;
+    double* target = r + 4 * static_cast<std::ptrdiff_t>(nodes[lane]);
+    BatchDouble4 sum;
+    __builtin_memcpy(&sum, target, sizeof sum);
+    sum += value[lane];
+    __builtin_memcpy(target, &sum, sizeof sum);
+  }
+}
+
 /// r[node][4] += element residuals of the used lanes.
 template <int W>
 TUNICA_INLINE void scatter_residual(const fe::ElementVector<Pack<W>>& e, const std::int32_t* nodes, int used,
                                     double* r) {
-  for (int a = 0; a < 4; ++a) {
-    BatchDouble4 value[W];
-    to_lanes<W>(e.r[a][0], e.r[a][1], e.r[a][2], e.r[a][3], value);
-#pragma GCC unroll 8
-    for (int lane = 0; lane < W; ++lane) {
-      if (lane >= used) break;
-      double* target = r + 4 * static_cast<std::ptrdiff_t>(nodes[a * W + lane]);
-      BatchDouble4 sum;
-      __builtin_memcpy(&sum, target, sizeof sum);
-      sum += value[lane];
-      __builtin_memcpy(target, &sum, sizeof sum);
-    }
-  }
+  for (int a = 0; a < 4; ++a) scatter_node<W>(e.r[a][0], e.r[a][1], e.r[a][2], e.r[a][3], nodes + a * W, used, r);
 }
 
 /// The same where the motion belongs to the host and the pressure to the node itself.

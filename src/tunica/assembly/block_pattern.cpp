@@ -13,24 +13,30 @@ struct Selection {
   bool with_hosts = true;                // hosts of an element's nodes couple like nodes of the element
 };
 
+using CoupledNodes = std::array<std::int32_t, 20>;
+
 // The distinct nodes of an element and of their hosts.
-int coupled_nodes(const distributed::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element,
-                  std::array<std::int32_t, 8>& nodes) {
+int coupled_nodes(const distributed::DistributedMesh& mesh, const distributed::Region& region, std::size_t e,
+                  CoupledNodes& nodes) {
   int n = 0;
-  for (const auto node : element) nodes[n++] = node;
-  for (const auto node : element)
-    if (mesh.host[node] != node) nodes[n++] = mesh.host[node];
+  for (const auto node : region.elements[e]) nodes[n++] = node;
+  if (mesh.quadratic)
+    for (const auto node : region.edges[e]) nodes[n++] = node;
+  const int own = n;
+  for (int a = 0; a < own; ++a)
+    if (mesh.host[nodes[a]] != nodes[a]) nodes[n++] = mesh.host[nodes[a]];
   return n;
 }
 
 template <class Visit>
 void for_each_pair(const distributed::DistributedMesh& mesh, const Selection& selection, Visit visit) {
-  std::array<std::int32_t, 8> nodes;
+  CoupledNodes nodes;
   for (const auto& region : mesh.regions) {
     if (selection.kind && region.kind != *selection.kind) continue;
-    for (const auto& element : region.elements) {
-      const int n = selection.with_hosts ? coupled_nodes(mesh, element, nodes) : 4;
-      if (!selection.with_hosts) std::copy(element.begin(), element.end(), nodes.begin());
+    for (std::size_t e = 0; e < region.elements.size(); ++e) {
+      const auto& corners = region.elements[e];
+      const int n = selection.with_hosts ? coupled_nodes(mesh, region, e, nodes) : 4;
+      if (!selection.with_hosts) std::copy(corners.begin(), corners.end(), nodes.begin());
       for (int a = 0; a < n; ++a)
         if (nodes[a] < mesh.owned_nodes)
           for (int b = 0; b < n; ++b) visit(nodes[a], nodes[b]);

@@ -6,6 +6,7 @@ namespace tunica::assembly {
 
 namespace {
 
+// Only nodes on the interface have hosts, and an edge is twinned only where its corners are.
 bool is_split(const distributed::DistributedMesh& mesh, const std::array<std::int32_t, 4>& element) {
   return std::any_of(element.begin(), element.end(), [&](std::int32_t node) { return mesh.host[node] != node; });
 }
@@ -33,23 +34,28 @@ ElementBatches make_batches(const distributed::DistributedMesh& mesh, const dist
   result.elements_of_region = std::move(elements);
   result.elements = static_cast<std::int32_t>(result.elements_of_region.size());
 
+  result.nodes_per_element = mesh.quadratic ? 10 : 4;
   const std::size_t batches = result.batches(), kinds = split ? 4 : 1, w = static_cast<std::size_t>(width);
-  result.nodes.resize(batches * 4 * w);
-  if (split) result.hosts.resize(batches * 4 * w);
-  result.slots.resize(batches * kinds * 16 * w);
+  const auto count = static_cast<std::size_t>(result.nodes_per_element), pairs = count * count;
+  result.nodes.resize(batches * count * w);
+  if (split) result.hosts.resize(batches * count * w);
+  result.slots.resize(batches * kinds * pairs * w);
+  std::array<std::int32_t, 10> nodes{};
   for (std::size_t batch = 0; batch < batches; ++batch)
     for (std::size_t lane = 0; lane < w; ++lane) {
-      const std::size_t e = std::min(batch * w + lane, static_cast<std::size_t>(result.elements) - 1);
-      const auto& element = region.elements[result.elements_of_region[e]];
-      for (std::size_t a = 0; a < 4; ++a) {
-        result.nodes[(batch * 4 + a) * w + lane] = element[a];
-        if (split) result.hosts[(batch * 4 + a) * w + lane] = mesh.host[element[a]];
-        for (std::size_t b = 0; b < 4; ++b)
+      const std::size_t position = std::min(batch * w + lane, static_cast<std::size_t>(result.elements) - 1);
+      const auto e = static_cast<std::size_t>(result.elements_of_region[position]);
+      std::copy(region.elements[e].begin(), region.elements[e].end(), nodes.begin());
+      if (mesh.quadratic) std::copy(region.edges[e].begin(), region.edges[e].end(), nodes.begin() + 4);
+      for (std::size_t a = 0; a < count; ++a) {
+        result.nodes[(batch * count + a) * w + lane] = nodes[a];
+        if (split) result.hosts[(batch * count + a) * w + lane] = mesh.host[nodes[a]];
+        for (std::size_t b = 0; b < count; ++b)
           for (std::size_t kind = 0; kind < kinds; ++kind) {
             const bool motion_row = split && kind < 2, motion_column = split && kind % 2 == 0;
-            const auto row = motion_row ? mesh.host[element[a]] : element[a];
-            const auto column = motion_column ? mesh.host[element[b]] : element[b];
-            result.slots[((batch * kinds + kind) * 16 + 4 * a + b) * w + lane] = pattern.slot(row, column);
+            const auto row = motion_row ? mesh.host[nodes[a]] : nodes[a];
+            const auto column = motion_column ? mesh.host[nodes[b]] : nodes[b];
+            result.slots[((batch * kinds + kind) * pairs + count * a + b) * w + lane] = pattern.slot(row, column);
           }
       }
     }

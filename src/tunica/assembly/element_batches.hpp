@@ -19,10 +19,11 @@ namespace tunica::assembly {
 struct ElementBatches {
   int width = 1;
   bool split = false;
+  int nodes_per_element = 4;  ///< 4, or 10 with those on its edges
   std::int32_t elements = 0;
-  std::vector<std::int32_t> nodes;               ///< [batch][4][width]
-  std::vector<std::int32_t> hosts;               ///< [batch][4][width], split only
-  std::vector<std::int32_t> slots;               ///< [batch][1 or 4][16][width]
+  std::vector<std::int32_t> nodes;               ///< [batch][nodes of an element][width]
+  std::vector<std::int32_t> hosts;               ///< [batch][nodes of an element][width], split only
+  std::vector<std::int32_t> slots;               ///< [batch][1 or 4][pair of nodes][width]
   std::vector<std::int32_t> elements_of_region;  ///< [element]: its position in Region::elements
 
   std::int32_t batches() const { return (elements + width - 1) / width; }

@@ -38,6 +38,7 @@ SchurPreconditioner::SchurPreconditioner(const distributed::DistributedMesh& mes
   inverse_diagonal_.assign(n, 0);
   scale_.assign(4 * static_cast<std::size_t>(n), 1);
   z_.resize(4 * static_cast<std::size_t>(n));
+  if (mesh.quadratic) second_.resize(z_.size());
   halo_v_.assign(4 * static_cast<std::size_t>(pattern.columns_count), 0);
   halo_p_.assign(pattern.columns_count, 0);
 
@@ -58,26 +59,43 @@ SchurPreconditioner::SchurPreconditioner(const distributed::DistributedMesh& mes
   multigrid_ = make_multigrid(mesh.comm);
 }
 
+/// Integral of the squared shape function of an edge over the volume of the element.
+constexpr double edge_mass = 32.0 / 420.0;
+
 // Reference geometry is enough for a preconditioner.
 void SchurPreconditioner::make_laplacians() {
   pressure_pattern_ = make_pressure_pattern(mesh_);
   schur_values_.resize(static_cast<std::size_t>(pressure_pattern_.blocks()) + 1);
   nodal_volume_.assign(pattern_.columns_count, 0.0);
   follows_.assign(pattern_.columns_count, 0);
+  std::vector<char> seen(pattern_.columns_count, 0);
   for (const auto& region : mesh_.regions)
-    for (const auto& element : region.elements) {
+    for (std::size_t e = 0; e < region.elements.size(); ++e) {
+      const auto& element = region.elements[e];
       Vec3<double> x[4];
       for (int a = 0; a < 4; ++a) x[a] = mesh_.points[element[a]];
       if (region.kind == mesh::RegionKind::wall)
         for (const auto node : element) follows_[node] = 1;
       const auto shape = fe::gradients(x);
       Laplacian& laplacian = laplacians_.emplace_back();
-      laplacian.nodes = element;
+      laplacian.count = mesh_.quadratic ? 6 : 4;
+      if (mesh_.quadratic)
+        laplacian.nodes = region.edges[e];
+      else
+        std::copy(element.begin(), element.end(), laplacian.nodes.begin());
+      for (int a = 0; a < laplacian.count; ++a)
+        nodal_volume_[mesh_.host[laplacian.nodes[a]]] += (mesh_.quadratic ? edge_mass : 0.25) * shape.volume;
       for (int a = 0, k = 0; a < 4; ++a) {
-        nodal_volume_[mesh_.host[element[a]]] += 0.25 * shape.volume;
         for (int b = a + 1; b < 4; ++b)
           laplacian.entries[k++] = static_cast<float>(shape.volume * dot(shape.dN[a], shape.dN[b]));
         for (int b = 0; b < 4; ++b) laplacian.slots[4 * a + b] = pressure_pattern_.slot(element[a], element[b]);
+      }
+      if (!mesh_.quadratic) continue;
+      for (int k = 0; k < 6; ++k) {
+        const auto node = region.edges[e][k];
+        if (region.kind == mesh::RegionKind::wall) follows_[node] = 1;
+        if (std::exchange(seen[node], 1) == 0)
+          edges_.push_back({node, {element[mesh::tetrahedron_edges[k][0]], element[mesh::tetrahedron_edges[k][1]]}});
       }
     }
   mesh_.halo.update(nodal_volume_, 1);
@@ -148,10 +166,11 @@ void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
   });
 }
 
-void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
-  // Mobility of a node: volume over the mean diagonal of K, where the share of the consistent mass (its row sum is 2.5
-  // times its diagonal) counts with its row sum, since pressure gradients are smooth.
-  std::vector<double> mobility(pattern_.columns_count, 0.0);
+// Mobility of a node: volume over the mean diagonal of K. Of linear elements the share of the consistent mass (its row
+// sum is 2.5 times its diagonal) counts with its row sum, since pressure gradients are smooth. Quadratic elements are
+// judged by the nodes on their edges, with the diagonal of the mass as the volume.
+std::vector<double> SchurPreconditioner::mobility(const BlockMatrix& matrix) {
+  std::vector<double> result(pattern_.columns_count, 0.0);
   for (std::int32_t i = 0; i < pattern_.rows; ++i) {
     double sum = 0, diagonal = 0;
     for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
@@ -160,19 +179,26 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
     }
     const float* a = matrix.blocks[pattern_.diagonal[i]].a;
     diagonal = a[0] + a[5] + a[10];
-    inverse_diagonal_[i] = 3.0 / (diagonal + 0.6 * std::clamp(sum, 0.0, 2.5 * diagonal));
-    mobility[i] = nodal_volume_[i] * inverse_diagonal_[i];
+    if (mesh_.quadratic)
+      inverse_diagonal_[i] = 3.0 / diagonal;
+    else
+      inverse_diagonal_[i] = 3.0 / (diagonal + 0.6 * std::clamp(sum, 0.0, 2.5 * diagonal));
+    result[i] = nodal_volume_[i] * inverse_diagonal_[i];
   }
-  mesh_.halo.update(mobility, 1);
+  mesh_.halo.update(result, 1);
   for (std::int32_t i = 0; i < pattern_.columns_count; ++i)
-    if (mesh_.host[i] != i) mobility[i] = mobility[mesh_.host[i]];
+    if (mesh_.host[i] != i) result[i] = result[mesh_.host[i]];
+  return result;
+}
 
+void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
+  const std::vector<double> mobile = mobility(matrix);
   std::fill(schur_values_.begin(), schur_values_.end(), 0.0);
   for (std::int32_t b = 0; b < pressure_pattern_.blocks(); ++b)
     schur_values_[b] = matrix.blocks[pressure_source_[b]].a[15];
   for (const auto& e : laplacians_) {
-    const double weight =
-        0.25 * (mobility[e.nodes[0]] + mobility[e.nodes[1]] + mobility[e.nodes[2]] + mobility[e.nodes[3]]);
+    double weight = 0;
+    for (int a = 0; a < e.count; ++a) weight += mobile[e.nodes[a]] / e.count;
     for (int a = 0, k = 0; a < 4; ++a)
       for (int b = a + 1; b < 4; ++b, ++k) {
         const double value = weight * e.entries[k];
@@ -182,8 +208,18 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
         schur_values_[e.slots[5 * b]] -= value;
       }
   }
-  // Where a boundary node moves freely, pressure pushes it: n^T K^-1 n with n = -(sum of its row of G), which vanishes
-  // inside. At the interface it ties the pressures of both sides.
+  if (mesh_.quadratic)
+    add_free_quadratic_boundary(matrix);
+  else
+    add_free_boundary(matrix);
+  check(MatSetValuesCOO(schur_, schur_values_.data(), INSERT_VALUES));
+  for (std::int32_t i = 0; i < pattern_.rows; ++i)
+    scale_[4 * static_cast<std::size_t>(i) + 3] = std::sqrt(std::abs(schur_values_[pressure_pattern_.diagonal[i]]));
+}
+
+// Where a boundary node moves freely, pressure pushes it: n^T K^-1 n with n = -(sum of its row of G), which vanishes
+// inside. At the interface it ties the pressures of both sides.
+void SchurPreconditioner::add_free_boundary(const BlockMatrix& matrix) {
   for (std::int32_t i = 0; i < pattern_.rows; ++i) {
     if (mesh_.host[i] != i) continue;
     double n[2][3] = {};
@@ -203,9 +239,36 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
       schur_values_[pressure_pattern_.slot(twin, i)] += product(0, 1);
     }
   }
-  check(MatSetValuesCOO(schur_, schur_values_.data(), INSERT_VALUES));
-  for (std::int32_t i = 0; i < pattern_.rows; ++i)
-    scale_[4 * static_cast<std::size_t>(i) + 3] = std::sqrt(std::abs(schur_values_[pressure_pattern_.diagonal[i]]));
+}
+
+// The same for nodes on edges, which share the push among the pressures of their ends.
+void SchurPreconditioner::add_free_quadratic_boundary(const BlockMatrix& matrix) {
+  std::vector<double> push(3 * static_cast<std::size_t>(pattern_.columns_count), 0.0);  // own, other, mixed
+  for (std::int32_t i = 0; i < pattern_.rows; ++i) {
+    if (mesh_.host[i] != i) continue;
+    double n[2][3] = {};
+    for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
+      const bool other_side = follows_[pattern_.columns[b]] != follows_[i];
+      for (int c = 0; c < 3; ++c) n[other_side ? 1 : 0][c] += matrix.blocks[b].a[12 + c];
+    }
+    const double h = 0.5 * inverse_diagonal_[i];
+    const auto product = [&](int p, int q) { return h * (n[p][0] * n[q][0] + n[p][1] * n[q][1] + n[p][2] * n[q][2]); };
+    double* to = push.data() + 3 * static_cast<std::size_t>(i);
+    to[0] = product(0, 0), to[1] = product(1, 1), to[2] = product(0, 1);
+  }
+  mesh_.halo.update(push, 3);
+  for (const auto& edge : edges_) {
+    const bool twin = mesh_.host[edge.node] != edge.node;
+    const double* from = push.data() + 3 * static_cast<std::size_t>(mesh_.host[edge.node]);
+    for (const auto end : edge.ends) {
+      if (end >= pattern_.rows) continue;
+      schur_values_[pressure_pattern_.diagonal[end]] += from[twin ? 1 : 0];
+      if (!twin) continue;
+      const auto host = mesh_.host[end];
+      schur_values_[pressure_pattern_.slot(end, host)] += from[2];
+      schur_values_[pressure_pattern_.slot(host, end)] += from[2];
+    }
+  }
 }
 
 void SchurPreconditioner::update(const BlockMatrix& matrix) {
@@ -238,6 +301,14 @@ void SchurPreconditioner::apply(std::span<const double> r, std::span<double> z) 
   mesh_.halo.update(halo_p_, 1);
   kernels.multiply_columns(n, pattern_.row_begin.data(), pattern_.columns.data(), gradient_.data(), halo_p_.data(),
                            halo_v_.data());
+  if (mesh_.quadratic) {
+    // No diagonal stands for the mass of quadratic elements, whose corners have a negative row sum.
+    for (std::size_t i = 0; i < z_.size(); ++i) second_[i] = static_cast<float>(halo_v_[i]);
+    kernels.ilu_solve(factors_, second_.data());
+    for (std::int32_t i = 0; i < n; ++i)
+      for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c) z[k + c] = z_[k + c] - second_[k + c];
+    return;
+  }
   for (std::int32_t i = 0; i < n; ++i)
     for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c)
       z[k + c] = z_[k + c] - inverse_diagonal_[i] * halo_v_[k + c];

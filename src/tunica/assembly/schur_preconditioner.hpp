@@ -43,6 +43,9 @@ class SchurPreconditioner {
   bool factors_are_stable();
   void build_schur(const BlockMatrix& matrix);
   void make_laplacians();
+  std::vector<double> mobility(const BlockMatrix& matrix);
+  void add_free_boundary(const BlockMatrix& matrix);
+  void add_free_quadratic_boundary(const BlockMatrix& matrix);
 
   const distributed::DistributedMesh& mesh_;
   const BlockPattern& pattern_;
@@ -65,7 +68,8 @@ class SchurPreconditioner {
 
   // S: pressures couple over one ring of elements.
   struct Laplacian {
-    std::array<std::int32_t, 4> nodes;
+    std::array<std::int32_t, 6> nodes;  ///< whose mobility counts: corners (four), or those on the edges
+    int count;
     std::array<float, 6> entries;        ///< V grad N_a . grad N_b for ab = 01 02 03 12 13 23 [m]
     std::array<std::int32_t, 16> slots;  ///< in pressure_pattern_; its number of blocks for ghost rows
   };
@@ -74,12 +78,16 @@ class SchurPreconditioner {
   std::vector<Laplacian> laplacians_;
   std::vector<char> follows_;         ///< [local node]: belongs to the wall (twins included, hosts not)
   std::vector<double> nodal_volume_;  ///< [local node][1], m^3
+  struct Edge {
+    std::int32_t node, ends[2];
+  };
+  std::vector<Edge> edges_;  ///< nodes on edges, local; empty for linear elements
   std::vector<double> schur_values_;
   std::vector<double> inverse_diagonal_;  ///< [owned node], 1 / (diagonal of K with the row sum of the mass)
   parallel::MatHandle schur_;
   parallel::PcHandle multigrid_;
   parallel::VecHandle rhs_, solution_;
-  std::vector<float> z_;
+  std::vector<float> z_, second_;
   std::vector<double> halo_v_, halo_p_;
 };
 

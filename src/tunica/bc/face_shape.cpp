@@ -88,6 +88,11 @@ std::vector<bool> rim_nodes(const FaceMesh& face) {
                        "orient all triangles of the face outward");
     if (edge.forward + edge.backward == 1) rim[nodes.first] = rim[nodes.second] = true;
   }
+  for (std::size_t t = 0; t < face.edges.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto& edge = edges.at(std::minmax(face.triangles[t][k], face.triangles[t][(k + 1) % 3]));
+      if (edge.forward + edge.backward == 1) rim[face.edges[t][k]] = true;
+    }
   return rim;
 }
 

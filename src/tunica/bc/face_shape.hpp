@@ -19,6 +19,7 @@ struct FaceMesh {
   std::string name;                      ///< for messages
   std::span<const Vec3<double>> points;  ///< m
   std::span<const Triangle> triangles;
+  std::span<const Triangle> edges{};  ///< of each triangle: nodes on its edges 01 12 20; empty for linear elements
 };
 
 struct FaceShape {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tunica/base/error.hpp"
+#include "tunica/fe/tetrahedron.hpp"
 
 namespace tunica::bc {
 
@@ -32,20 +33,57 @@ struct Entry {
   double value;
 };
 
-/// Stiffness of linear surface triangles: K_ab = e_a . e_b / (4 A), e_a the edge opposite node a. Rim nodes are left
-/// out (identity rows), so the matrix is positive definite.
+/// Nodes of a triangle and its stiffness. With e_a the edge opposite corner a and grad l_a . grad l_b = e_a . e_b / (4
+/// A^2), linear elements have K_ab = e_a . e_b / (4 A); quadratic ones are integrated exactly by the points of the
+/// edges.
+struct TriangleStiffness {
+  std::array<std::int32_t, 6> nodes;
+  int count;
+  double k[6][6];
+};
+
+TriangleStiffness triangle_stiffness(const FaceMesh& face, std::size_t t) {
+  const auto& corners = face.triangles[t];
+  Vec3<double> edge[3];
+  for (int a = 0; a < 3; ++a) edge[a] = face.points[corners[(a + 2) % 3]] - face.points[corners[(a + 1) % 3]];
+  const double twice_area = norm(cross(edge[0], edge[1]));
+  double linear[3][3];
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) linear[a][b] = dot(edge[a], edge[b]) / (2.0 * twice_area);
+  TriangleStiffness s{{corners[0], corners[1], corners[2]}, 3, {}};
+  if (face.edges.empty()) {
+    for (int a = 0; a < 3; ++a) std::copy(linear[a], linear[a] + 3, s.k[a]);
+    return s;
+  }
+  s.count = 6;
+  std::copy(face.edges[t].begin(), face.edges[t].end(), s.nodes.begin() + 3);
+  for (const auto& point : fe::three_points) {
+    double slope[6][3] = {};  // grad N_a = sum_m slope[a][m] grad l_m
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3;
+      slope[a][a] = 4 * point.barycentric[a] - 1;
+      slope[3 + a][a] = 4 * point.barycentric[b];
+      slope[3 + a][b] = 4 * point.barycentric[a];
+    }
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b)
+        for (int m = 0; m < 3; ++m)
+          for (int n = 0; n < 3; ++n) s.k[a][b] += point.weight * slope[a][m] * slope[b][n] * linear[m][n];
+  }
+  return s;
+}
+
+/// Rim nodes are left out (identity rows), so the matrix is positive definite.
 Laplacian surface_laplacian(const FaceMesh& face, const std::vector<bool>& rim) {
   std::vector<Entry> entries;
-  entries.reserve(9 * face.triangles.size() + face.points.size());
+  entries.reserve((face.edges.empty() ? 9 : 36) * face.triangles.size() + face.points.size());
   for (std::size_t i = 0; i < rim.size(); ++i)
     if (rim[i]) entries.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), 1.0});
-  for (const auto& t : face.triangles) {
-    Vec3<double> edge[3];
-    for (int a = 0; a < 3; ++a) edge[a] = face.points[t[(a + 2) % 3]] - face.points[t[(a + 1) % 3]];
-    const double twice_area = norm(cross(edge[0], edge[1]));
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b)
-        if (!rim[t[a]] && !rim[t[b]]) entries.push_back({t[a], t[b], dot(edge[a], edge[b]) / (2.0 * twice_area)});
+  for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+    const TriangleStiffness s = triangle_stiffness(face, t);
+    for (int a = 0; a < s.count; ++a)
+      for (int b = 0; b < s.count; ++b)
+        if (!rim[s.nodes[a]] && !rim[s.nodes[b]]) entries.push_back({s.nodes[a], s.nodes[b], s.k[a][b]});
   }
   std::stable_sort(entries.begin(), entries.end(),
                    [](const Entry& a, const Entry& b) { return a.row != b.row ? a.row < b.row : a.column < b.column; });
@@ -148,10 +186,13 @@ NodeWeights node_weights(const FaceMesh& face, const Vec3<double>& normal) {
     throw InputError("face " + face.name, "it has no rim where the velocity can vanish",
                      "prescribe a flow on an opening, not on a closed surface");
   std::vector<bool> used(n, false);
-  for (const auto& t : face.triangles) {
+  for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+    const auto& t = face.triangles[k];
     const auto &a = face.points[t[0]], &b = face.points[t[1]], &c = face.points[t[2]];
     const Vec3<double> area_vector = 0.5 * cross(b - a, c - a);
-    for (const auto node : t) {
+    for (const auto node : t) used[node] = true;
+    // Quadratic shape functions of corners have no integral, those of edges a third of the area.
+    for (const auto node : face.edges.empty() ? t : face.edges[k]) {
       used[node] = true;
       weights.flow[node] += dot(area_vector, normal) / 3.0;
       if (!weights.rim[node]) weights.load[node] += norm(area_vector) / 3.0;

@@ -376,6 +376,9 @@ Schema<Case> Case::schema() {
       .section("fibres", &Case::fibres, FibreSettings::schema(),
                "Material directions that `tunica run` makes first, as in the file of `tunica fibres`; inlet, outer and "
                "tears may be left out after `mesh`")
+      .choice("elements", &Case::elements, {{"linear", Elements::linear}, {"quadratic", Elements::quadratic}},
+              "Velocity and displacement in a tetrahedron; pressure is linear. `quadratic` gives every edge a node")
+      .by_default()
       .section("fluid", &Case::fluid, fluid::Parameters::schema(), "Blood; for `fsi` and `flow`")
       .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")
       .section("mesh_motion", &Case::mesh_motion, ale::Parameters::schema(),

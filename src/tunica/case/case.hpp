@@ -104,6 +104,11 @@ struct OutputSettings {
   static config::Schema<OutputSettings> schema();
 };
 
+// --- discretisation -----------------------------------------------------------------------------------------------
+
+/// Of velocity and displacement; pressure is linear in any case.
+enum class Elements { linear, quadratic };
+
 // --- the whole ----------------------------------------------------------------------------------------------------
 
 /// Which of the optional parts are present follows from the analysis; the schema checks it.
@@ -112,6 +117,7 @@ struct Case {
   Analysis analysis;
   Boxed<MeshCase> mesh;  ///< what is meshed first, in place of `meshes`
   MeshSettings meshes;
+  Elements elements = Elements::linear;
   std::optional<FibreSettings> fibres;  ///< directions that are made first
   std::optional<fluid::Parameters> fluid;
   Boxed<wall::Parameters> wall;

@@ -70,6 +70,11 @@ std::vector<NodeConstraint> complete_on_ghosts(const distributed::DistributedMes
   return list;
 }
 
+std::array<std::int32_t, 6> quadratic_nodes(const distributed::Face& face, std::size_t t) {
+  const auto &corners = face.triangles[t], &edges = face.edges[t];
+  return {corners[0], corners[1], corners[2], edges[0], edges[1], edges[2]};
+}
+
 template <class Kernel>
 void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& matrix, std::int32_t row,
                std::int32_t column, const Kernel& entry) {
@@ -105,6 +110,8 @@ struct Boundaries::Builder {
   void for_each_node(const distributed::Face& face, Visit visit) const {
     for (const auto& triangle : face.triangles)
       for (const auto node : triangle) visit(node);
+    for (const auto& edges : face.edges)
+      for (const auto node : edges) visit(node);
   }
 
   // In FSI the rim of an opening belongs to the wall; nodes that no_slip holds stay at rest.
@@ -301,6 +308,10 @@ void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const 
 void Boundaries::add_lumen_load(const Load& load, double value, const FieldsView& fields,
                                 const LoadCoefficients& coefficients, std::span<double> residual,
                                 assembly::BlockMatrix* matrix) const {
+  if (mesh_.quadratic) {
+    add_quadratic_lumen_load(load, value, fields, coefficients, residual, matrix);
+    return;
+  }
   for (const auto& triangle : mesh_.faces[load.face].triangles) {
     Vec3<double> x[3], v[3], w[3];
     gather(fields.position, triangle, x);
@@ -320,6 +331,30 @@ void Boundaries::add_lumen_load(const Load& load, double value, const FieldsView
       for (int b = 0; b < 3 && matrix != nullptr; ++b)
         add_block(pattern_, *matrix, triangle[a], triangle[b], k.k[a][b]);
     }
+  }
+}
+
+// On a quadratic triangle a constant traction acts on the nodes of the edges alone: the integral of a corner's shape
+// function vanishes.
+void Boundaries::add_quadratic_lumen_load(const Load& load, double value, const FieldsView& fields,
+                                          const LoadCoefficients& coefficients, std::span<double> residual,
+                                          assembly::BlockMatrix* matrix) const {
+  const auto& face = mesh_.faces[load.face];
+  for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+    const auto nodes = quadratic_nodes(face, t);
+    Vec3<double> x[3], v[6], w[6], r[6] = {};
+    gather(fields.position, face.triangles[t], x);
+    gather(fields.velocity_pressure, nodes, v);
+    gather(fields.mesh_velocity, nodes, w);
+    const Vec3<double> area = fluid::area_vector(x);
+    const Vec3<double> force =
+        load.kind == Load::Kind::lumen_pressure ? (value / 3.0) * area : (-value * norm(area) / 3.0) * load.vector;
+    for (int a = 3; a < 6; ++a) r[a] = force;
+    fluid::add_quadratic_backflow(
+        area, v, w, *fluid_, r, matrix != nullptr, coefficients.velocity,
+        [&](int a, int b, const Mat3<double>& block) { add_block(pattern_, *matrix, nodes[a], nodes[b], block); });
+    for (int a = 0; a < 6; ++a)
+      for (int i = 0; i < 3; ++i) residual[at(nodes[a]) + i] += r[a][i];
   }
 }
 
@@ -411,9 +446,11 @@ std::vector<double> Boundaries::outlet_flows(const FieldsView& fields) const {
     double sum = 0;
     for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
       Vec3<double> x[3], v[3], w[3];
+      // Of linear functions the corners have a third of the area each, of quadratic ones the nodes of the edges.
+      const auto& nodes = mesh_.quadratic ? face.edges[t] : face.triangles[t];
       gather(fields.position, face.triangles[t], x);
-      gather(fields.velocity_pressure, face.triangles[t], v);
-      gather(fields.mesh_velocity, face.triangles[t], w);
+      gather(fields.velocity_pressure, nodes, v);
+      gather(fields.mesh_velocity, nodes, w);
       sum += fluid::flow(x, v, w);
     }
     flows.push_back(sum);
@@ -427,11 +464,12 @@ std::vector<assembly::RankOne> Boundaries::add_outlets(std::span<const double> p
   std::vector<assembly::RankOne> list;
   for (std::size_t k = 0; k < outlets_.size(); ++k) {
     std::map<std::int32_t, Vec3<double>> area;
-    for (const auto& triangle : mesh_.faces[outlets_[k].face].triangles) {
+    const auto& face = mesh_.faces[outlets_[k].face];
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
       Vec3<double> x[3];
-      gather(fields.position, triangle, x);
+      gather(fields.position, face.triangles[t], x);
       const Vec3<double> third = fluid::nodal_area_vector(x);
-      for (const auto node : triangle)
+      for (const auto node : mesh_.quadratic ? face.edges[t] : face.triangles[t])
         if (node < mesh_.owned_nodes) area[node] = area[node] + third;
     }
     assembly::RankOne& term = list.emplace_back();

@@ -104,6 +104,9 @@ class Boundaries {
 
   void add_lumen_load(const Load& load, double value, const FieldsView& fields, const LoadCoefficients& coefficients,
                       std::span<double> residual, assembly::BlockMatrix* matrix) const;
+  void add_quadratic_lumen_load(const Load& load, double value, const FieldsView& fields,
+                                const LoadCoefficients& coefficients, std::span<double> residual,
+                                assembly::BlockMatrix* matrix) const;
   void add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
                           const LoadCoefficients& coefficients, std::span<double> residual,
                           assembly::BlockMatrix* matrix) const;

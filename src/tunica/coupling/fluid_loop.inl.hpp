@@ -5,6 +5,7 @@
 
 #include "tunica/coupling/gather.inl.hpp"
 #include "tunica/fluid/rbvms_shape.hpp"
+#include "tunica/fluid/taylor_hood.hpp"
 
 namespace tunica::coupling {
 
@@ -45,13 +46,69 @@ void loop_over_fluid(const LumenGroupView& group, const FieldsView& fields, cons
   }
 }
 
+/// Adds one row of element blocks of the used lanes, and the pressure row of a corner.
+template <int W>
+TUNICA_INLINE void scatter_row(const fluid::taylor_hood::TangentRow<Pack<W>>& row, int a, const std::int32_t* slots,
+                               int used, float* blocks) {
+  const Pack<W> zero(0.0);
+  for (int b = 0; b < fe::quadratic_nodes; ++b)
+    for (int j = 0; j < 4; ++j) {
+      if (j == 3 && b >= 4) continue;
+      assembly::BatchDouble4 column[W];
+      if (j < 3)
+        assembly::to_lanes<W>(row.velocity[b](0, j), row.velocity[b](1, j), row.velocity[b](2, j),
+                              a < 4 ? row.continuity[b][j] : zero, column);
+      else
+        assembly::to_lanes<W>(row.pressure[b][0], row.pressure[b][1], row.pressure[b][2], zero, column);
+      for (int lane = 0; lane < used; ++lane)
+        assembly::add_column(
+            blocks + 16 * static_cast<std::ptrdiff_t>(slots[(fe::quadratic_nodes * a + b) * W + lane]) + 4 * j,
+            __builtin_convertvector(column[lane], assembly::BatchFloat4));
+    }
+}
+
+template <int W, class Viscosity>
+void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fields,
+                               const fluid::Parameters& parameters, const Viscosity& law,
+                               const fluid::taylor_hood::TimeCoefficients& time, const LoopTarget& target) {
+  namespace th = fluid::taylor_hood;
+  constexpr int n = fe::quadratic_nodes;
+  const BatchView& batches = group.batches;
+  for (std::int32_t batch = 0; batch < batches.batches; ++batch) {
+    const std::int32_t* nodes = batches.nodes + static_cast<std::ptrdiff_t>(batch) * n * W;
+    th::ElementState<Pack<W>> state;
+    gather_vectors<W>(fields.position, nodes, state.position);
+    gather_vectors<W>(fields.velocity_pressure, nodes, state.velocity, state.pressure);
+    gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
+    gather_vectors<W>(fields.mesh_velocity, nodes, state.mesh_velocity);
+    gather_vectors<W>(fields.stream, nodes, state.stream);
+    const int used = used_lanes<W>(batches, batch);
+    th::ElementVector<Pack<W>> r;
+    if (target.blocks != nullptr) {
+      const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * n * n * W;
+      th::tangent(state, time, parameters, law, r, [&](int a, const th::TangentRow<Pack<W>>& row) {
+        scatter_row<W>(row, a, slots, used, target.blocks);
+      });
+    } else {
+      th::residual(state, time, parameters, law, r);
+    }
+    const Pack<W> zero(0.0);
+    for (int a = 0; a < n; ++a)
+      assembly::scatter_node<W>(r.momentum[a][0], r.momentum[a][1], r.momentum[a][2], a < 4 ? r.continuity[a] : zero,
+                                nodes + a * W, used, target.residual);
+  }
+}
+
 template <int W>
 void fluid(const LumenGroupView& group, const FieldsView& fields, const fluid::Parameters& parameters,
            const fluid::TimeCoefficients& time, const fluid::MotionCoefficients& motion, const LoopTarget& target) {
   std::visit(
       [&](const auto& law) {
         using Viscosity = std::decay_t<decltype(law)>;
-        if (target.blocks == nullptr)
+        if (group.batches.quadratic)
+          loop_over_quadratic_fluid<W>(group, fields, parameters, law, {time.acceleration, time.velocity, time.speed},
+                                       target);
+        else if (target.blocks == nullptr)
           loop_over_fluid<W, Viscosity, Tangent::none>(group, fields, parameters, law, time, motion, target);
         else if (group.moves == nullptr)
           loop_over_fluid<W, Viscosity, Tangent::fixed_mesh>(group, fields, parameters, law, time, motion, target);

@@ -8,23 +8,24 @@ namespace tunica::coupling {
 
 namespace {
 
-template <int W>
-TUNICA_INLINE void gather_vectors(const double* field, const std::int32_t* nodes, Vec3<Pack<W>> (&out)[4]) {
-  for (int a = 0; a < 4; ++a) {
+template <int W, int N>
+TUNICA_INLINE void gather_vectors(const double* field, const std::int32_t* nodes, Vec3<Pack<W>> (&out)[N]) {
+  for (int a = 0; a < N; ++a) {
     Pack<W> values[4];
     assembly::gather4<W>(field, nodes + a * W, values);
     for (int i = 0; i < 3; ++i) out[a][i] = values[i];
   }
 }
 
-template <int W>
-TUNICA_INLINE void gather_vectors(const double* field, const std::int32_t* nodes, Vec3<Pack<W>> (&out)[4],
+/// The fourth entries as far as `fourth` goes: pressures belong to corners.
+template <int W, int N>
+TUNICA_INLINE void gather_vectors(const double* field, const std::int32_t* nodes, Vec3<Pack<W>> (&out)[N],
                                   Pack<W> (&fourth)[4]) {
-  for (int a = 0; a < 4; ++a) {
+  for (int a = 0; a < N; ++a) {
     Pack<W> values[4];
     assembly::gather4<W>(field, nodes + a * W, values);
     for (int i = 0; i < 3; ++i) out[a][i] = values[i];
-    fourth[a] = values[3];
+    if (a < 4) fourth[a] = values[3];
   }
 }
 

@@ -18,6 +18,7 @@ struct FieldsView {
   const double* velocity_pressure = nullptr;   ///< v at t_{n+alpha_f} [m/s], p [Pa]
   const double* acceleration = nullptr;        ///< dv/dt at t_{n+alpha_m} [m/s^2]
   const double* mesh_velocity = nullptr;       ///< at t_{n+alpha_f} [m/s]; fluid
+  const double* stream = nullptr;              ///< v - v^ at t_n [m/s]; fluid, quadratic elements
   const double* displacement = nullptr;        ///< u at t_{n+alpha_f} [m]; wall
 };
 
@@ -30,13 +31,14 @@ struct LoopTarget {
 /// Plain view of ElementBatches.
 struct BatchView {
   std::int32_t batches, elements;
-  bool split;
+  bool split, quadratic;
   const std::int32_t *nodes, *hosts, *slots;
 
   explicit BatchView(const assembly::ElementBatches& b)
       : batches(b.batches()),
         elements(b.elements),
         split(b.split),
+        quadratic(b.nodes_per_element == 10),
         nodes(b.nodes.data()),
         hosts(b.hosts.data()),
         slots(b.slots.data()) {}

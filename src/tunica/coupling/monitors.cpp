@@ -8,6 +8,7 @@
 #include "tunica/coupling/wall_model.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/fluid/energy.hpp"
+#include "tunica/fluid/taylor_hood.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/wall/output.hpp"
 
@@ -29,6 +30,11 @@ Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.me
       for (const auto& element : region.elements)
         for (const auto node : element)
           if (node < mesh.owned_nodes) kind_[node] = NodeKind::wall;
+  for (const auto& region : mesh.regions)
+    if (region.kind == RegionKind::wall)
+      for (const auto& edges : region.edges)
+        for (const auto node : edges)
+          if (node < mesh.owned_nodes) kind_[node] = NodeKind::wall;
   std::set<std::string> interface;
   for (const auto& [lumen, wall] : problem.input().boundary.interfaces) interface.insert({lumen, wall});
   std::vector<char> on_interface(kind_.size(), 0), on_other(kind_.size(), 0);
@@ -36,6 +42,9 @@ Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.me
     auto& mark = interface.contains(face.name) ? on_interface : on_other;
     for (const auto& triangle : face.triangles)
       for (const auto node : triangle)
+        if (mesh.host[node] < mesh.owned_nodes) mark[mesh.host[node]] = 1;
+    for (const auto& edges : face.edges)
+      for (const auto node : edges)
         if (mesh.host[node] < mesh.owned_nodes) mark[mesh.host[node]] = 1;
   }
   for (std::size_t i = 0; i < kind_.size(); ++i) {
@@ -55,9 +64,11 @@ void Monitors::faces(StepRecord& record) const {
     double flow = 0, force = 0, area = 0, sweep = 0;
     for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
       Vec3<double> x[3], v[3], w[3];
+      // The integral of a quadratic function is the mean of its values on the edges.
+      const auto& nodes = mesh.quadratic ? face.edges[t] : face.triangles[t];
       gather(f.position, face.triangles[t], x);
-      gather(f.velocity_pressure, face.triangles[t], v);
-      gather(f.mesh_velocity, face.triangles[t], w);
+      gather(f.velocity_pressure, nodes, v);
+      gather(f.mesh_velocity, nodes, w);
       double p[3];
       for (int a = 0; a < 3; ++a) p[a] = f.velocity_pressure[at(face.triangles[t][a]) + 3];
       flow += fluid::flow(x, v, w);
@@ -82,6 +93,34 @@ void Monitors::faces(StepRecord& record) const {
   record.largest_flow = std::max(record.largest_flow, std::abs(record.volume_rate));
 }
 
+void Monitors::quadratic_lumen_elements(const distributed::Region& region, double (&sums)[4]) const {
+  namespace th = fluid::taylor_hood;
+  const FieldsView f = problem_.fields();
+  const fluid::Parameters& parameters = *problem_.input().fluid;
+  for (std::int32_t e = 0; e < region.owned_elements; ++e) {
+    const auto& corners = region.elements[e];
+    std::array<std::int32_t, 10> nodes;
+    std::copy(corners.begin(), corners.end(), nodes.begin());
+    std::copy(region.edges[e].begin(), region.edges[e].end(), nodes.begin() + 4);
+    th::ElementState<double> s;
+    gather(f.position, corners, s.position);
+    gather(f.velocity_pressure, nodes, s.velocity);
+    gather(f.acceleration, nodes, s.acceleration);
+    gather(f.mesh_velocity, corners, s.mesh_velocity);
+    gather(f.stream, nodes, s.stream);
+    for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(corners[a]) + 3];
+    const auto energy = std::visit(
+        [&](const auto& law) {
+          return th::energy(s, {0.0, 0.0, problem_.flow_speed()}, parameters, law);
+        },
+        parameters.viscosity);
+    sums[0] += energy.volume;
+    sums[1] += energy.kinetic;
+    sums[2] += energy.viscous;
+    sums[3] += energy.numerical;
+  }
+}
+
 void Monitors::lumen_elements(double dt, StepRecord& record) const {
   const auto& mesh = problem_.mesh();
   const FieldsView f = problem_.fields();
@@ -89,6 +128,10 @@ void Monitors::lumen_elements(double dt, StepRecord& record) const {
   for (const auto& region : mesh.regions) {
     if (region.kind != RegionKind::lumen) continue;
     const fluid::Parameters& parameters = *problem_.input().fluid;
+    if (mesh.quadratic) {
+      quadratic_lumen_elements(region, sums);
+      continue;
+    }
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
       const auto& nodes = region.elements[e];
       fluid::ElementState<double> s;

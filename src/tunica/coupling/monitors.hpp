@@ -54,6 +54,7 @@ class Monitors {
   enum class NodeKind : char { inner, opening, interface, rim, wall };
 
   void faces(StepRecord& record) const;
+  void quadratic_lumen_elements(const distributed::Region& region, double (&sums)[4]) const;
   void lumen_elements(double dt, StepRecord& record) const;
   void wall_elements(StepRecord& record) const;
   void powers(StepRecord& record) const;

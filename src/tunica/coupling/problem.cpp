@@ -84,6 +84,8 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
     std::move(groups.begin(), groups.end(), std::back_inserter(wall_->groups));
     for (const auto& element : region.elements)
       for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
+    for (const auto& edges : region.edges)
+      for (const auto node : edges) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
   }
   // A ghost may be a wall node although no wall element is seen here: its owner knows.
   std::vector<double> follows(follows_wall_.begin(), follows_wall_.end());
@@ -94,6 +96,18 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
     auto groups = lumen_groups(mesh, region, follows_wall_, pattern_, width);
     std::move(groups.begin(), groups.end(), std::back_inserter(lumen_groups_));
   }
+  for (const auto& region : mesh.regions) {
+    if (region.kind != mesh::RegionKind::lumen || !mesh.quadratic) continue;
+    std::vector<char> seen(mesh.nodes(), 0);
+    for (std::size_t e = 0; e < region.edges.size(); ++e)
+      for (int k = 0; k < 6; ++k) {
+        const auto node = region.edges[e][k];
+        if (std::exchange(seen[node], 1) == 0)
+          lumen_edges_.push_back(
+              {node,
+               {region.elements[e][mesh::tetrahedron_edges[k][0]], region.elements[e][mesh::tetrahedron_edges[k][1]]}});
+      }
+  }
   negligible_ = negligible_forces();
   if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
 
@@ -102,7 +116,8 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
   for (std::int32_t i = 0; i < mesh.nodes(); ++i)
     for (int c = 0; c < 3; ++c) reference_position_[at(i) + c] = mesh.points[i][c];
   position_ = reference_position_;
-  for (auto* field : {&velocity_pressure_, &acceleration_, &mesh_velocity_, &displacement_, &residual_, &increment_})
+  for (auto* field :
+       {&velocity_pressure_, &acceleration_, &mesh_velocity_, &stream_, &displacement_, &residual_, &increment_})
     field->assign(n, 0.0);
 }
 
@@ -150,8 +165,8 @@ State Problem::initial_state() const {
 }
 
 FieldsView Problem::fields() const {
-  return {reference_position_.data(), position_.data(),      velocity_pressure_.data(),
-          acceleration_.data(),       mesh_velocity_.data(), displacement_.data()};
+  return {reference_position_.data(), position_.data(), velocity_pressure_.data(), acceleration_.data(),
+          mesh_velocity_.data(),      stream_.data(),   displacement_.data()};
 }
 
 void Problem::synchronise_twins(State& state) const {
@@ -182,6 +197,10 @@ void Problem::evaluate_fields(const State& old_state, const State& next, const I
     }
     velocity_pressure_[at(i) + 3] = next.velocity_pressure[at(i) + 3];
   }
+  for (const auto& edge : lumen_edges_)
+    for (int c = 0; c < 3; ++c)
+      for (auto* field : {&position_, &mesh_velocity_})
+        (*field)[at(edge.node) + c] = 0.5 * ((*field)[at(edge.ends[0]) + c] + (*field)[at(edge.ends[1]) + c]);
 }
 
 // Rates and wall displacements that belong to the velocities of `next`.
@@ -196,6 +215,15 @@ void Problem::follow_velocity(const State& old_state, State& next, const TimeSch
       next.displacement_rate[k] = scheme.displacement_rate(rate_old, scheme.at_alpha_f(v_old, v));
       next.displacement[k] = scheme.new_value(old_state.displacement[k], rate_old, next.displacement_rate[k]);
     }
+}
+
+// Walls have no part in it, and a step that is repeated finds the same.
+double Problem::largest_speed(const State& state) const {
+  double largest = 0;
+  if (input_.fluid)
+    for (std::int32_t i = 0; i < mesh_.owned_nodes; ++i)
+      if (!follows_wall_[i]) largest = std::max(largest, norm(vector_at(state.velocity_pressure.data(), i)));
+  return parallel::global_max(mesh_.comm, largest);
 }
 
 void Problem::prescribe_mesh(State& state) const {
@@ -227,7 +255,8 @@ void Problem::add_lumen(const Instant& instant, std::span<double> residual, floa
   const ElementLoops loops = element_loops(isa_);
   for (const auto& group : lumen_groups_) {
     const TimeScheme& s = *instant.scheme;
-    loops.fluid(group.view(), fields(), *input_.fluid, {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown()},
+    loops.fluid(group.view(), fields(), *input_.fluid,
+                {s.dt, s.acceleration_per_unknown(), s.velocity_per_unknown(), flow_speed_},
                 {s.displacement_per_unknown(), s.velocity_per_unknown()}, {residual.data(), blocks});
   }
 }
@@ -440,6 +469,8 @@ StepReport Problem::advance(State& state, double dt) {
   next.dt = dt;
   ++next.step;
   boundaries_.prescribe(next.time, next.velocity_pressure);
+  flow_speed_ = largest_speed(next);
+  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = state.velocity_pressure[k] - state.displacement_rate[k];
   follow_velocity(state, next, scheme);
   // Until the first increment the mesh goes on as it moved; the interface is moved by its velocity.
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)

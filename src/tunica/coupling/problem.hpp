@@ -103,6 +103,8 @@ class Problem {
   /// Fields at t_{n+alpha_f} of the last evaluation.
   FieldsView fields() const;
   const Boundaries& boundaries() const { return boundaries_; }
+  /// Largest speed [m/s] of the blood when the last step began, prescribed velocities at its end included.
+  double flow_speed() const { return flow_speed_; }
   /// Only with a wall.
   const WallModel& wall_model() const;
   /// What a log should say of its laws: one line each; empty without a wall.
@@ -120,6 +122,7 @@ class Problem {
   };
   void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
   void follow_velocity(const State& old_state, State& next, const assembly::TimeScheme& scheme) const;
+  double largest_speed(const State& state) const;
   void prescribe_mesh(State& state) const;
   int move_mesh(const State& old_state, State& next, const assembly::TimeScheme& scheme);
   void synchronise_twins(State& state) const;
@@ -154,15 +157,21 @@ class Problem {
   std::unique_ptr<Wall> wall_;      ///< null without one
   std::vector<double> negligible_;  ///< forces whose norm is noise, [owned node][4]; empty without a wall
   std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
+  struct LumenEdge {
+    std::int32_t node, ends[2];
+  };
+  std::vector<LumenEdge> lumen_edges_;  ///< their nodes move the mesh as the mean of their ends does
   assembly::BlockMatrix matrix_;
   assembly::LinearSolver solver_;
   std::optional<MeshMotion> mesh_motion_;
 
-  std::vector<double> reference_position_, position_, velocity_pressure_, acceleration_, mesh_velocity_, displacement_;
+  std::vector<double> reference_position_, position_, velocity_pressure_, acceleration_, mesh_velocity_, stream_,
+      displacement_;
   std::vector<double> residual_, increment_, nodal_forces_;
   std::vector<assembly::RankOne> outlets_;
   std::vector<double> outlet_flows_;
   Instant last_instant_;
+  double flow_speed_ = 0.0;
   StepTimings timings_;  ///< of the step under way
 };
 

@@ -14,10 +14,11 @@ struct Corner {
 std::vector<Corner> all_corners(const distributed::DistributedMesh& mesh, const distributed::Face& face) {
   std::vector<Corner> mine;
   for (std::int32_t t = 0; t < face.owned_triangles; ++t)
-    for (const auto node : face.triangles[t]) {
-      const auto& x = mesh.points[node];
-      mine.push_back({mesh.global_ids[node], {x[0], x[1], x[2]}});
-    }
+    for (const auto* nodes : {&face.triangles[t], mesh.quadratic ? &face.edges[t] : nullptr})
+      for (int a = 0; a < 3 && nodes != nullptr; ++a) {
+        const auto& x = mesh.points[(*nodes)[a]];
+        mine.push_back({mesh.global_ids[(*nodes)[a]], {x[0], x[1], x[2]}});
+      }
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
   const int bytes = static_cast<int>(mine.size() * sizeof(Corner));
@@ -47,8 +48,9 @@ WholeFace gather_face(const distributed::DistributedMesh& mesh, const distribute
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const auto node = whole.find(corners[k].node);
     whole.points[node] = {{corners[k].x[0], corners[k].x[1], corners[k].x[2]}};
-    if (k % 3 == 0) whole.triangles.emplace_back();
-    whole.triangles.back()[k % 3] = node;
+    auto& cells = mesh.quadratic && k % 6 >= 3 ? whole.edges : whole.triangles;
+    if (k % 3 == 0) cells.emplace_back();
+    cells.back()[k % 3] = node;
   }
   return whole;
 }

@@ -14,9 +14,10 @@ struct WholeFace {
   std::string name;
   std::vector<Vec3<double>> points;      ///< reference positions [m], ascending global node number
   std::vector<bc::Triangle> triangles;   ///< numbers of `points`
+  std::vector<bc::Triangle> edges;       ///< numbers of `points`; empty for linear elements
   std::vector<std::int64_t> global_ids;  ///< of `points`
 
-  bc::FaceMesh mesh() const { return {name, points, triangles}; }
+  bc::FaceMesh mesh() const { return {name, points, triangles, edges}; }
   /// Position of a global node number in `points`, or -1.
   std::int32_t find(std::int64_t global_id) const;
 };

@@ -88,16 +88,51 @@ void check_size(const mesh::MeshData& data) {
                      "use a coarser mesh");
 }
 
-Numbering number_nodes(const mesh::MeshData& data, const Groups& groups, int ranks) {
-  const auto group_count = static_cast<std::int32_t>(groups.members.begin.size()) - 1;
-  std::vector<std::array<std::int32_t, 4>> elements(data.tetrahedra.size());
-  std::vector<std::int32_t> weights(static_cast<std::size_t>(group_count), 0);
-  for (std::size_t e = 0; e < elements.size(); ++e)
-    for (int a = 0; a < 4; ++a) {
-      elements[e][a] = groups.of_node[data.tetrahedra[e][a]];
+/// Nodes of an element or of a triangle: corners, then those on its edges.
+template <std::size_t N>
+struct CellNodes {
+  std::array<std::int64_t, N> nodes;
+  std::size_t count;
+
+  auto begin() const { return nodes.begin(); }
+  auto end() const { return nodes.begin() + static_cast<std::ptrdiff_t>(count); }
+};
+
+CellNodes<10> element_nodes(const mesh::MeshData& data, std::int64_t e) {
+  CellNodes<10> cell{{}, 4};
+  std::copy_n(data.tetrahedra[e].begin(), 4, cell.nodes.begin());
+  if (data.edges.empty()) return cell;
+  std::copy_n(data.edges[e].begin(), 6, cell.nodes.begin() + 4);
+  cell.count = 10;
+  return cell;
+}
+
+CellNodes<6> triangle_nodes(const mesh::FaceData& face, std::int64_t t) {
+  CellNodes<6> cell{{}, 3};
+  std::copy_n(face.triangles[t].begin(), 3, cell.nodes.begin());
+  if (face.edges.empty()) return cell;
+  std::copy_n(face.edges[t].begin(), 3, cell.nodes.begin() + 3);
+  cell.count = 6;
+  return cell;
+}
+
+template <std::size_t N>
+mesh::Graph graph_of_groups(const mesh::MeshData& data, const Groups& groups, std::vector<std::int32_t>& weights) {
+  std::vector<std::array<std::int32_t, N>> elements(data.tetrahedra.size());
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto nodes = element_nodes(data, static_cast<std::int64_t>(e));
+    for (std::size_t a = 0; a < N; ++a) {
+      elements[e][a] = groups.of_node[nodes.nodes[a]];
       ++weights[elements[e][a]];
     }
-  const mesh::Graph graph = mesh::graph_of_elements(group_count, elements);
+  }
+  return mesh::graph_of_elements(static_cast<std::int32_t>(weights.size()), elements);
+}
+
+Numbering number_nodes(const mesh::MeshData& data, const Groups& groups, int ranks) {
+  std::vector<std::int32_t> weights(groups.members.begin.size() - 1, 0);
+  const mesh::Graph graph =
+      data.edges.empty() ? graph_of_groups<4>(data, groups, weights) : graph_of_groups<10>(data, groups, weights);
   const std::vector<std::int32_t> part = partition(graph, weights, ranks);
 
   Numbering numbering;
@@ -116,18 +151,18 @@ Numbering number_nodes(const mesh::MeshData& data, const Groups& groups, int ran
   return numbering;
 }
 
-/// Cells (elements or triangles) that touch a node of each rank, ascending.
-template <std::size_t N>
-Rows cells_by_rank(const std::vector<std::array<std::int64_t, N>>& cells, const std::vector<std::int32_t>& owner,
-                   int ranks) {
+/// Cells (elements or triangles) that touch a node of each rank, ascending. `nodes_of(c)`: their nodes.
+template <class NodesOf>
+Rows cells_by_rank(std::size_t cells, const NodesOf& nodes_of, const std::vector<std::int32_t>& owner, int ranks) {
   const auto for_each_rank = [&](auto&& visit) {
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      for (std::size_t a = 0; a < N; ++a) {
-        const std::int32_t rank = owner[cells[c][a]];
-        bool repeated = false;
-        for (std::size_t b = 0; b < a; ++b) repeated = repeated || owner[cells[c][b]] == rank;
-        if (!repeated) visit(rank, static_cast<std::int64_t>(c));
+    for (std::size_t c = 0; c < cells; ++c) {
+      const auto nodes = nodes_of(static_cast<std::int64_t>(c));
+      for (auto a = nodes.begin(); a != nodes.end(); ++a) {
+        const std::int32_t rank = owner[*a];
+        if (std::none_of(nodes.begin(), a, [&](std::int64_t b) { return owner[b] == rank; }))
+          visit(rank, static_cast<std::int64_t>(c));
       }
+    }
   };
   Rows rows;
   rows.begin.assign(static_cast<std::size_t>(ranks) + 1, 0);
@@ -146,9 +181,12 @@ class Cutter {
       : data_(data),
         groups_(group_twins(data)),
         numbering_(number_nodes(data, groups_, ranks)),
-        elements_(cells_by_rank(data.tetrahedra, numbering_.owner, ranks)),
+        elements_(cells_by_rank(
+            data.tetrahedra.size(), [&](std::int64_t e) { return element_nodes(data, e); }, numbering_.owner, ranks)),
         local_(data.points.size(), absent) {
-    for (const auto& face : data.faces) triangles_.push_back(cells_by_rank(face.triangles, numbering_.owner, ranks));
+    for (const auto& face : data.faces)
+      triangles_.push_back(cells_by_rank(
+          face.triangles.size(), [&](std::int64_t t) { return triangle_nodes(face, t); }, numbering_.owner, ranks));
   }
 
   /// Fills what belongs to `rank` into a mesh with regions and faces already named. Cells are not sorted yet.
@@ -196,9 +234,9 @@ class Cutter {
         add(groups_.host[node]);
       }
     };
-    for (const std::int64_t e : elements_.of(rank)) add_cell(data_.tetrahedra[e]);
+    for (const std::int64_t e : elements_.of(rank)) add_cell(element_nodes(data_, e));
     for (std::size_t f = 0; f < triangles_.size(); ++f)
-      for (const std::int64_t t : triangles_[f].of(rank)) add_cell(data_.faces[f].triangles[t]);
+      for (const std::int64_t t : triangles_[f].of(rank)) add_cell(triangle_nodes(data_.faces[f], t));
     std::sort(nodes.begin() + owned, nodes.end(),
               [&](std::int64_t a, std::int64_t b) { return numbering_.new_id[a] < numbering_.new_id[b]; });
     return nodes;
@@ -215,6 +253,11 @@ class Cutter {
       region.elements.resize(region.element_ids.size());
       for (std::size_t e = 0; e < region.elements.size(); ++e)
         for (int a = 0; a < 4; ++a) region.elements[e][a] = local_[data_.tetrahedra[region.element_ids[e]][a]];
+      if (!data_.edges.empty()) {
+        region.edges.resize(region.element_ids.size());
+        for (std::size_t e = 0; e < region.edges.size(); ++e)
+          for (int a = 0; a < 6; ++a) region.edges[e][a] = local_[data_.edges[region.element_ids[e]][a]];
+      }
       used += region.elements.size();
       for (std::size_t f = 0; f < data_.fields.size(); ++f) {
         const mesh::ElementField& all = data_.fields[f];
@@ -232,10 +275,13 @@ class Cutter {
   void cut_faces(int rank, DistributedMesh& mesh) const {
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
       auto& triangles = mesh.faces[f].triangles;
+      auto& edges = mesh.faces[f].edges;
       triangles.clear();
+      edges.clear();
       for (const std::int64_t t : triangles_[f].of(rank)) {
-        const auto& nodes = data_.faces[f].triangles[t];
+        const auto nodes = triangle_nodes(data_.faces[f], t).nodes;
         triangles.push_back({local_[nodes[0]], local_[nodes[1]], local_[nodes[2]]});
+        if (!data_.edges.empty()) edges.push_back({local_[nodes[3]], local_[nodes[4]], local_[nodes[5]]});
       }
     }
   }
@@ -256,7 +302,7 @@ DistributedMesh broadcast_frame(const mesh::MeshData& data, MPI_Comm comm) {
   std::vector<std::int64_t> face_sizes;
   std::vector<std::string> field_names, node_field_names;
   std::vector<std::int32_t> field_components;
-  std::array<std::int64_t, 2> totals{};
+  std::array<std::int64_t, 3> totals{};
   if (parallel::rank(comm) == 0) {
     for (const auto& region : data.regions) {
       region_names.push_back(region.name);
@@ -272,7 +318,8 @@ DistributedMesh broadcast_frame(const mesh::MeshData& data, MPI_Comm comm) {
       field_components.push_back(field.components);
     }
     for (const auto& field : data.node_fields) node_field_names.push_back(field.name);
-    totals = {static_cast<std::int64_t>(data.points.size()), static_cast<std::int64_t>(data.tetrahedra.size())};
+    totals = {static_cast<std::int64_t>(data.points.size()), static_cast<std::int64_t>(data.tetrahedra.size()),
+              data.edges.empty() ? 0 : 1};
   }
   parallel::broadcast(comm, region_names);
   parallel::broadcast(comm, kinds);
@@ -288,13 +335,16 @@ DistributedMesh broadcast_frame(const mesh::MeshData& data, MPI_Comm comm) {
   mesh.comm = comm;
   mesh.global_nodes = totals[0];
   mesh.global_elements = totals[1];
+  mesh.quadratic = totals[2] != 0;
   for (const auto& name : node_field_names) mesh.node_fields.push_back({name, {}});
   std::vector<mesh::ElementField> fields;
   for (std::size_t f = 0; f < field_names.size(); ++f) fields.push_back({field_names[f], field_components[f], {}});
   for (std::size_t r = 0; r < region_names.size(); ++r)
-    mesh.regions.push_back({region_names[r], kinds[r], 0, {}, {}, fields});
+    mesh.regions.push_back(
+        {.name = region_names[r], .kind = kinds[r], .elements = {}, .element_ids = {}, .fields = fields});
   for (std::size_t f = 0; f < face_names.size(); ++f)
-    mesh.faces.push_back({face_names[f], face_regions[f], 0, face_sizes[f], {}});
+    mesh.faces.push_back(
+        {.name = face_names[f], .region = face_regions[f], .global_triangles = face_sizes[f], .triangles = {}});
   return mesh;
 }
 
@@ -307,10 +357,14 @@ void send_part(MPI_Comm comm, int to, const DistributedMesh& mesh) {
   for (const auto& field : mesh.node_fields) parallel::send(comm, to, field.values);
   for (const auto& region : mesh.regions) {
     parallel::send(comm, to, region.elements);
+    parallel::send(comm, to, region.edges);
     parallel::send(comm, to, region.element_ids);
     for (const auto& field : region.fields) parallel::send(comm, to, field.values);
   }
-  for (const auto& face : mesh.faces) parallel::send(comm, to, face.triangles);
+  for (const auto& face : mesh.faces) {
+    parallel::send(comm, to, face.triangles);
+    parallel::send(comm, to, face.edges);
+  }
 }
 
 void receive_part(MPI_Comm comm, DistributedMesh& mesh) {
@@ -324,17 +378,22 @@ void receive_part(MPI_Comm comm, DistributedMesh& mesh) {
   for (auto& field : mesh.node_fields) field.values = parallel::receive<double>(comm, 0);
   for (auto& region : mesh.regions) {
     region.elements = parallel::receive<std::array<std::int32_t, 4>>(comm, 0);
+    region.edges = parallel::receive<std::array<std::int32_t, 6>>(comm, 0);
     region.element_ids = parallel::receive<std::int64_t>(comm, 0);
     for (auto& field : region.fields) field.values = parallel::receive<double>(comm, 0);
   }
-  for (auto& face : mesh.faces) face.triangles = parallel::receive<std::array<std::int32_t, 3>>(comm, 0);
+  for (auto& face : mesh.faces) {
+    face.triangles = parallel::receive<std::array<std::int32_t, 3>>(comm, 0);
+    face.edges = parallel::receive<std::array<std::int32_t, 3>>(comm, 0);
+  }
 }
 
 /// Order of `cells`: owned ones first, then by lowest local node. A cell is owned by the rank that owns its node of
 /// lowest global number, and since those numbers ascend with the rank, a cell is a ghost here if any of its nodes
 /// belongs to a lower rank.
-template <std::size_t N>
+template <std::size_t N, std::size_t M>
 std::pair<std::vector<std::int32_t>, std::int32_t> cell_order(const std::vector<std::array<std::int32_t, N>>& cells,
+                                                              const std::vector<std::array<std::int32_t, M>>& edges,
                                                               const DistributedMesh& mesh) {
   struct Key {
     bool ghost;
@@ -345,8 +404,9 @@ std::pair<std::vector<std::int32_t>, std::int32_t> cell_order(const std::vector<
   std::int32_t owned = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto& nodes = cells[c];
-    const bool ghost = std::any_of(nodes.begin(), nodes.end(),
-                                   [&](std::int32_t node) { return mesh.global_ids[node] < mesh.first_global; });
+    const auto foreign = [&](std::int32_t node) { return mesh.global_ids[node] < mesh.first_global; };
+    const bool ghost = std::any_of(nodes.begin(), nodes.end(), foreign) ||
+                       (!edges.empty() && std::any_of(edges[c].begin(), edges[c].end(), foreign));
     keys[c] = {ghost, *std::min_element(nodes.begin(), nodes.end()), static_cast<std::int32_t>(c)};
     owned += ghost ? 0 : 1;
   }
@@ -375,16 +435,18 @@ void permute(mesh::ElementField& field, const std::vector<std::int32_t>& order) 
 
 void sort_cells(DistributedMesh& mesh) {
   for (auto& region : mesh.regions) {
-    const auto [order, owned] = cell_order(region.elements, mesh);
+    const auto [order, owned] = cell_order(region.elements, region.edges, mesh);
     region.owned_elements = owned;
     permute(region.elements, order);
+    if (mesh.quadratic) permute(region.edges, order);
     permute(region.element_ids, order);
     for (auto& field : region.fields) permute(field, order);
   }
   for (auto& face : mesh.faces) {
-    const auto [order, owned] = cell_order(face.triangles, mesh);
+    const auto [order, owned] = cell_order(face.triangles, face.edges, mesh);
     face.owned_triangles = owned;
     permute(face.triangles, order);
+    if (mesh.quadratic) permute(face.edges, order);
   }
 }
 

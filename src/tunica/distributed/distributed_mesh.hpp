@@ -20,7 +20,8 @@ struct Region {
   std::string name;
   mesh::RegionKind kind;
   std::int32_t owned_elements = 0;
-  std::vector<std::array<std::int32_t, 4>> elements;  ///< local nodes
+  std::vector<std::array<std::int32_t, 4>> elements;  ///< corners, local nodes
+  std::vector<std::array<std::int32_t, 6>> edges{};   ///< nodes on their edges (mesh::tetrahedron_edges); or empty
   std::vector<std::int64_t> element_ids;              ///< position in MeshData::tetrahedra
   std::vector<mesh::ElementField> fields;             ///< of these elements
 
@@ -33,7 +34,8 @@ struct Face {
   std::int32_t region = 0;
   std::int32_t owned_triangles = 0;
   std::int64_t global_triangles = 0;
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< local nodes, counter-clockwise from outside
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< corners, local nodes, counter-clockwise from outside
+  std::vector<std::array<std::int32_t, 3>> edges{};    ///< nodes on their edges 01 12 20; empty for linear elements
 };
 
 /// Local nodes: [0, owned_nodes) owned, [owned_nodes, nodes()) ghosts. Owned nodes of rank r have the contiguous
@@ -51,6 +53,8 @@ struct DistributedMesh {
   std::vector<Region> regions;
   std::vector<Face> faces;
   parallel::Halo halo;
+
+  bool quadratic = false;  ///< elements have nodes on their edges
 
   std::int32_t nodes() const { return static_cast<std::int32_t>(points.size()); }
   const Face& face(const std::string& name) const;                   ///< throws InputError listing the names that exist

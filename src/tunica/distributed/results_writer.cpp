@@ -38,11 +38,18 @@ struct Piece {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  ///< points and cells; arrays only while writing
 };
 
+template <class Visit>
+void for_each_node(const Region& region, std::int32_t e, Visit visit) {
+  for (const auto n : region.elements[e]) visit(n);
+  if (region.edges.empty()) return;
+  for (const auto n : region.edges[e]) visit(n);
+}
+
 Piece make_piece(const DistributedMesh& mesh, const Region& region, double length_factor) {
   Piece piece;
   std::vector<std::int32_t> number(mesh.nodes(), -1);
   for (std::int32_t e = 0; e < region.owned_elements; ++e)
-    for (const auto n : region.elements[e]) number[n] = 0;
+    for_each_node(region, e, [&](std::int32_t n) { number[n] = 0; });
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
   for (std::int32_t n = 0; n < mesh.nodes(); ++n) {
@@ -53,15 +60,15 @@ Piece make_piece(const DistributedMesh& mesh, const Region& region, double lengt
     points->InsertNextPoint(x[0], x[1], x[2]);
   }
   vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(region.owned_elements, 4 * static_cast<vtkIdType>(region.owned_elements));
+  const int count = mesh.quadratic ? 10 : 4;
+  cells->AllocateExact(region.owned_elements, count * static_cast<vtkIdType>(region.owned_elements));
   for (std::int32_t e = 0; e < region.owned_elements; ++e) {
-    vtkIdType corners[4];
-    for (int a = 0; a < 4; ++a) corners[a] = number[region.elements[e][a]];
-    cells->InsertNextCell(4, corners);
+    cells->InsertNextCell(count);
+    for_each_node(region, e, [&](std::int32_t n) { cells->InsertCellPoint(number[n]); });
   }
   piece.grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   piece.grid->SetPoints(points);
-  piece.grid->SetCells(VTK_TETRA, cells);
+  piece.grid->SetCells(mesh.quadratic ? VTK_QUADRATIC_TETRA : VTK_TETRA, cells);
   return piece;
 }
 

@@ -5,6 +5,7 @@
 // T = double, Dual or Pack.
 #pragma once
 
+#include "tunica/fe/quadratic_triangle.hpp"
 #include "tunica/fe/tetrahedron.hpp"
 #include "tunica/fluid/rbvms.hpp"
 
@@ -96,6 +97,42 @@ TUNICA_INLINE void add_backflow(const Vec3<T> (&x)[3], const Vec3<T> (&velocity)
         k->k[row][column] = k->k[row][column] + shape * block;
       }
   }
+}
+
+/// The same for a quadratic velocity on a straight-edged triangle (fe/quadratic_triangle.hpp): `v`, `v_hat` at its six
+/// nodes. `take(a, b, block)` receives the tangent with respect to v_{n+1}, if `with_tangent`.
+template <class T, class Take>
+TUNICA_INLINE void add_quadratic_backflow(const Vec3<T>& area, const Vec3<T> (&v)[6], const Vec3<T> (&v_hat)[6],
+                                          const Parameters& parameters, Vec3<T> (&r)[6], bool with_tangent,
+                                          double velocity_coefficient, Take&& take) {
+  Mat3<T> k[6][6];
+  if (with_tangent)
+    for (auto& row : k)
+      for (auto& block : row) block = detail::zero_matrix<T>();
+  for (const auto& point : fe::quadratic_seven_points) {
+    Vec3<T> u = detail::zero_vector<T>(), a = detail::zero_vector<T>();
+    for (int b = 0; b < 6; ++b) {
+      detail::add(u, T(point.N[b]), v[b]);
+      detail::add(a, T(point.N[b]), v[b] - v_hat[b]);
+    }
+    const T normal_flow = dot(a, area), zero(0.0);
+    const auto inward = normal_flow < zero;
+    const double factor = -parameters.backflow * parameters.density * point.weight;
+    const T flow_in = T(factor) * select(inward, normal_flow, zero);
+    for (int row = 0; row < 6; ++row) detail::add(r[row], T(point.N[row]) * flow_in, u);
+    if (!with_tangent) continue;
+    const T slope = select(inward, T(factor), zero);
+    Mat3<T> block;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) block(i, j) = slope * u[i] * area[j];
+    for (int i = 0; i < 3; ++i) block(i, i) += flow_in;
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column)
+        k[row][column] = k[row][column] + T(point.N[row] * point.N[column] * velocity_coefficient) * block;
+  }
+  if (!with_tangent) return;
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column) take(row, column, k[row][column]);
 }
 
 /// Wall shear stress: tangential part of the viscous traction mu (grad v + grad v^T) n that the wall exerts on the flow

@@ -39,6 +39,7 @@ struct TimeCoefficients {
   double dt;            ///< step size in tau_M, eq (2.2) [s]; infinity for steady flow
   double acceleration;  ///< d(acceleration)/d(v_{n+1}) [1/s]: alpha_m / (gamma dt) for generalised-alpha
   double velocity;      ///< d(velocity)/d(v_{n+1}) [-]: alpha_f
+  double speed = 0.0;   ///< largest speed of the flow at the start of the step [m/s]; quadratic elements alone
 };
 
 /// Resolved quantities: constant ones and those at the four points.

@@ -41,14 +41,20 @@ inline std::string face_array_name(const std::string& face, const std::string& a
 struct FaceData {
   std::string name;
   std::int32_t region;                                 ///< index of a region it bounds; other regions are of its kind
-  std::vector<std::array<std::int64_t, 3>> triangles;  ///< nodes, seen from outside the region counter-clockwise
+  std::vector<std::array<std::int64_t, 3>> triangles;  ///< corners, seen from outside the region counter-clockwise
+  std::vector<std::array<std::int64_t, 3>> edges{};    ///< of each triangle: nodes on its edges 01 12 20; see MeshData
 };
 
-/// Where a region's nodes and elements stand in the file they came from (for messages and output).
+/// Edges of a tetrahedron, in the order of VTK_QUADRATIC_TETRA.
+inline constexpr int tetrahedron_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
 struct MeshData {
   std::vector<Vec3<double>> points;                     ///< m
-  std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< positive orientation
-  std::vector<RegionData> regions;                      ///< at most one lumen, any number of wall regions
+  std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< corners, positive orientation
+  /// Of each tetrahedron: nodes in the middle of its edges (tetrahedron_edges). Empty for linear elements;
+  /// edge_nodes.hpp makes them.
+  std::vector<std::array<std::int64_t, 6>> edges{};
+  std::vector<RegionData> regions;  ///< at most one lumen, any number of wall regions
   std::vector<FaceData> faces;
   std::vector<ElementField> fields;                          ///< of all tetrahedra
   std::vector<NodeField> node_fields;                        ///< of all points

@@ -8,7 +8,8 @@ namespace tunica::mesh {
 namespace {
 
 /// Elements of each vertex, in compressed rows.
-Graph elements_of_vertices(std::int32_t vertices, std::span<const std::array<std::int32_t, 4>> elements) {
+template <std::size_t N>
+Graph elements_of_vertices(std::int32_t vertices, const std::vector<std::array<std::int32_t, N>>& elements) {
   Graph rows;
   rows.begin.assign(static_cast<std::size_t>(vertices) + 1, 0);
   for (const auto& element : elements)
@@ -99,7 +100,8 @@ class CuthillMcKee {
 
 }  // namespace
 
-Graph graph_of_elements(std::int32_t vertices, std::span<const std::array<std::int32_t, 4>> elements) {
+template <std::size_t N>
+Graph graph_of_elements(std::int32_t vertices, const std::vector<std::array<std::int32_t, N>>& elements) {
   const Graph incident = elements_of_vertices(vertices, elements);
   Graph graph;
   graph.begin.reserve(static_cast<std::size_t>(vertices) + 1);
@@ -118,6 +120,9 @@ Graph graph_of_elements(std::int32_t vertices, std::span<const std::array<std::i
   }
   return graph;
 }
+
+template Graph graph_of_elements(std::int32_t, const std::vector<std::array<std::int32_t, 4>>&);
+template Graph graph_of_elements(std::int32_t, const std::vector<std::array<std::int32_t, 10>>&);
 
 std::vector<std::int32_t> reverse_cuthill_mckee(const Graph& graph, std::span<const std::int32_t> part, int parts) {
   std::vector<std::int32_t> by_part(part.size());

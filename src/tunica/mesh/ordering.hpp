@@ -21,8 +21,9 @@ struct Graph {
   }
 };
 
-/// Vertices 0 .. vertices - 1, adjacent when an element holds both.
-Graph graph_of_elements(std::int32_t vertices, std::span<const std::array<std::int32_t, 4>> elements);
+/// Vertices 0 .. vertices - 1, adjacent when an element holds both. N = 4 and 10 are there.
+template <std::size_t N>
+Graph graph_of_elements(std::int32_t vertices, const std::vector<std::array<std::int32_t, N>>& elements);
 
 /// All vertices ordered by part, and inside each part by reverse Cuthill-McKee (George and Liu 1981, ch. 4) on the
 /// edges inside the part, each connected piece from a vertex at its far end. `part` of each vertex: 0 .. parts - 1.

@@ -1,0 +1,301 @@
+// Flow on a moving quadratic tetrahedron: quadratic velocity, linear pressure (Taylor & Hood 1973), streamline
+// stabilisation with the complete residual (docs/theory.md, eq. 2.5).
+//
+// Find (v, p) so that for all (w, q), with a = v - v^ the velocity relative to the mesh,
+//   (w, rho (v. + a.grad v + 1/2 (div v) v)) + (grad w, 2 mu eps - p I) + (q, div v)
+//   + sum_e (tau_M rho b.grad w, r_M) = boundary terms,
+//   r_M = rho (v. + a.grad v) + grad p - div(2 mu eps),
+//   tau_M = [rho sqrt(b.G b + (mean_e |b|^2 + (U / 5)^2) tr G / 3 + c_I (mu / rho)^2 G:G)]^-1,
+// with b = a at the start of the step.
+//
+// The pair satisfies the inf-sup condition, so no subscale carries mass: div v = 0 holds against every linear q. The
+// term with 1/2 (div v) keeps convection from making energy where div v does not vanish in points (Temam 1968).
+//
+// tau_M does not know the time step: what a steady flow loses must not depend on it. In its place stands the time in
+// which blood crosses the element; a fifth of the speed U of the whole flow keeps tau_M smooth where blood stagnates
+// (docs/theory.md has what this does to a jet). As b is known, the stabilisation is linear in the unknowns: with b = a
+// Newton's method fails when a flow starts at once.
+//
+// Corners alone move the mesh: positions and v^ are linear. div(2 mu eps) is taken at constant mu.
+//
+// All functions are templated on T = double, Dual (derivative checks) or Pack (one element per lane).
+#pragma once
+
+#include "tunica/fe/quadratic_tetrahedron.hpp"
+#include "tunica/fluid/rbvms.hpp"
+
+namespace tunica::fluid::taylor_hood {
+
+inline constexpr int nodes = fe::quadratic_nodes;
+inline constexpr int points = 14;
+
+/// What the kernel needs to know of an element.
+template <class T>
+struct ElementState {
+  Vec3<T> position[4];          ///< of the corners at t_{n+alpha_f} [m]
+  Vec3<T> velocity[nodes];      ///< v at t_{n+alpha_f} [m/s]
+  Vec3<T> acceleration[nodes];  ///< dv/dt at the moving mesh node, at t_{n+alpha_m} [m/s^2]
+  Vec3<T> mesh_velocity[4];     ///< v^ of the corners at t_{n+alpha_f} [m/s]
+  Vec3<T> stream[nodes];        ///< b: velocity relative to the mesh at t_n [m/s]
+  T pressure[4];                ///< p at t_{n+alpha_f} [Pa]
+};
+
+/// Step size and unknowns as in rbvms.hpp, and the speed of the flow.
+struct TimeCoefficients {
+  double acceleration;  ///< d(acceleration)/d(v_{n+1}) [1/s]
+  double velocity;      ///< d(velocity)/d(v_{n+1}) [-]
+  double speed;         ///< U: largest speed of the flow at the start of the step [m/s]
+};
+
+/// Residual of an element: momentum of all nodes [N], continuity of the corners [m^3/s].
+template <class T>
+struct ElementVector {
+  Vec3<T> momentum[nodes];
+  T continuity[4];
+};
+
+/// One row of the tangent: what the node `a` of the residual feels of every column.
+template <class T>
+struct TangentRow {
+  Mat3<T> velocity[nodes];    ///< d momentum / d v
+  Vec3<T> pressure[4];        ///< d momentum / d p
+  Vec3<T> continuity[nodes];  ///< d continuity / d v; corners only
+};
+
+/// What does not depend on the row, once for each element.
+template <class T>
+struct Flow {
+  Vec3<T> g[4];     ///< gradients of the barycentric coordinates [1/m]
+  T volume;         ///< m^3
+  T gg[4][4];       ///< g_a . g_b
+  Vec3<T> grad_p;   ///< Pa/m
+  Vec3<T> viscous;  ///< div(2 mu eps) at constant mu [Pa/m]
+  T common;         ///< part of 1 / (rho tau_M)^2 that all points share [1/s^2]
+  T mu;             ///< viscosity at the centroid [Pa s]
+};
+
+/// At one point of the rule.
+template <class T>
+struct PointFlow {
+  Vec3<T> dN[nodes];
+  Mat3<T> gradient;  ///< v_i,j
+  Vec3<T> a, v;      ///< relative and absolute velocity
+  Vec3<T> inertia;   ///< v. + a.grad v
+  Vec3<T> b;         ///< direction of the stabilisation [m/s]
+  Vec3<T> residual;  ///< r_M
+  T divergence, pressure, mu, tau_m, weight;
+};
+
+template <class T, class Law>
+TUNICA_INLINE Flow<T> evaluate(const ElementState<T>& s, const TimeCoefficients& time, const Parameters& parameters,
+                               const Law& law) {
+  Flow<T> f;
+  const auto shape = fe::gradients(s.position);
+  f.volume = shape.volume;
+  f.grad_p = detail::zero_vector<T>();
+  for (int a = 0; a < 4; ++a) {
+    f.g[a] = shape.dN[a];
+    detail::add(f.grad_p, s.pressure[a], f.g[a]);
+  }
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b) f.gg[a][b] = dot(f.g[a], f.g[b]);
+  // Mean gradient (at the centroid) for the viscosity inside the stabilisation.
+  Mat3<T> mean = detail::zero_matrix<T>();
+  Vec3<T> laplacian = detail::zero_vector<T>(), grad_div = detail::zero_vector<T>();
+  for (int b = 0; b < nodes; ++b) {
+    const int m = fe::gradient_of[b][0], n = fe::gradient_of[b][1];
+    if (b < 4) {  // slope 0 at the centroid; second derivatives 4 g (x) g
+      detail::add(laplacian, T(4.0) * f.gg[m][m], s.velocity[b]);
+      detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[m]);
+    } else {
+      detail::add_outer(mean, s.velocity[b], f.g[m] + f.g[n]);
+      detail::add(laplacian, T(8.0) * f.gg[m][n], s.velocity[b]);
+      detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[n]);
+      detail::add(grad_div, T(4.0) * dot(f.g[n], s.velocity[b]), f.g[m]);
+    }
+  }
+  f.mu = law.viscosity(shear_rate(mean));
+  for (int i = 0; i < 3; ++i) f.viscous[i] = f.mu * (laplacian[i] + grad_div[i]);
+  T g_g(0.0), squares(0.0);
+  for (int k = 1; k < 4; ++k)
+    for (int l = 1; l < 4; ++l) g_g += f.gg[k][l] * f.gg[k][l];
+  for (int b = 0; b < nodes; ++b) squares += dot(s.stream[b], s.stream[b]);
+  const T nu = f.mu * T(1.0 / parameters.density), trace_g = f.gg[1][1] + f.gg[2][2] + f.gg[3][3];
+  const T speed = T(1.0 / nodes) * squares + T(0.04 * time.speed * time.speed);
+  f.common = T(1.0 / 3.0) * trace_g * speed + T(parameters.c_i) * nu * nu * g_g;
+  return f;
+}
+
+template <class T, class Law>
+TUNICA_INLINE PointFlow<T> at_point(const ElementState<T>& s, const Flow<T>& f, const fe::QuadraticPoint& point,
+                                    const Parameters& parameters, const Law& law) {
+  const double rho = parameters.density;
+  PointFlow<T> p;
+  p.weight = T(point.weight) * f.volume;
+  p.gradient = detail::zero_matrix<T>();
+  p.v = p.b = detail::zero_vector<T>();
+  Vec3<T> rate = detail::zero_vector<T>();
+  for (int b = 0; b < nodes; ++b) {
+    p.dN[b] = fe::quadratic_gradient(f.g, point, b);
+    detail::add_outer(p.gradient, s.velocity[b], p.dN[b]);
+    detail::add(p.v, T(point.N[b]), s.velocity[b]);
+    detail::add(p.b, T(point.N[b]), s.stream[b]);
+    detail::add(rate, T(point.N[b]), s.acceleration[b]);
+  }
+  p.a = p.v;
+  p.pressure = T(0.0);
+  for (int b = 0; b < 4; ++b) {
+    detail::add(p.a, T(-point.barycentric[b]), s.mesh_velocity[b]);
+    p.pressure += T(point.barycentric[b]) * s.pressure[b];
+  }
+  p.inertia = rate + p.gradient * p.a;
+  p.divergence = trace(p.gradient);
+  p.mu = law.viscosity(shear_rate(p.gradient));
+  p.residual = f.grad_p - f.viscous;
+  detail::add(p.residual, T(rho), p.inertia);
+  T metric(0.0);
+  for (int k = 1; k < 4; ++k) {
+    const T along = dot(f.g[k], p.b);
+    metric += along * along;
+  }
+  p.tau_m = T(1.0 / rho) / sqrt(f.common + metric + T(1e-12));
+  return p;
+}
+
+/// Integrals of one point, added to the residual.
+template <class T>
+TUNICA_INLINE void add_residual(const PointFlow<T>& p, const fe::QuadraticPoint& point, double rho,
+                                ElementVector<T>& r) {
+  Vec3<T> force = T(rho) * p.inertia;  // with N_a
+  detail::add(force, T(0.5 * rho) * p.divergence, p.v);
+  for (int i = 0; i < 3; ++i) force[i] = p.weight * force[i];
+  Mat3<T> stress;  // with grad N_a
+  const Vec3<T> stream = (p.weight * T(rho) * p.tau_m) * p.b;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      stress(i, j) = p.weight * p.mu * (p.gradient(i, j) + p.gradient(j, i)) + p.residual[i] * stream[j];
+  for (int i = 0; i < 3; ++i) stress(i, i) -= p.weight * p.pressure;
+  for (int a = 0; a < nodes; ++a) {
+    detail::add(r.momentum[a], T(point.N[a]), force);
+    r.momentum[a] = r.momentum[a] + stress * p.dN[a];
+  }
+  for (int a = 0; a < 4; ++a) r.continuity[a] += p.weight * p.divergence * T(point.barycentric[a]);
+}
+
+template <class T>
+TUNICA_INLINE void set_zero(ElementVector<T>& r) {
+  for (auto& m : r.momentum) m = detail::zero_vector<T>();
+  for (auto& c : r.continuity) c = T(0.0);
+}
+
+/// Residual of an element.
+template <class T, class Law>
+inline void residual(const ElementState<T>& state, const TimeCoefficients& time, const Parameters& parameters,
+                     const Law& law, ElementVector<T>& r) {
+  set_zero(r);
+  const Flow<T> f = evaluate(state, time, parameters, law);
+  for (const auto& point : fe::quadratic_fourteen_points)
+    add_residual(at_point(state, f, point, parameters, law), point, parameters.density, r);
+}
+
+/// Energy of an element [J] and the power that leaves its resolved flow [W].
+template <class T>
+struct Energy {
+  T volume, kinetic, viscous, numerical;
+};
+
+template <class T, class Law>
+inline Energy<T> energy(const ElementState<T>& state, const TimeCoefficients& time, const Parameters& parameters,
+                        const Law& law) {
+  const Flow<T> f = evaluate(state, time, parameters, law);
+  Energy<T> sum{f.volume, T(0.0), T(0.0), T(0.0)};
+  for (const auto& point : fe::quadratic_fourteen_points) {
+    const PointFlow<T> p = at_point(state, f, point, parameters, law);
+    const T gamma = shear_rate(p.gradient);
+    sum.kinetic += T(0.5 * parameters.density) * p.weight * dot(p.v, p.v);
+    sum.viscous += p.weight * p.mu * gamma * gamma;
+    sum.numerical += p.weight * T(parameters.density) * p.tau_m * dot(p.gradient * p.b, p.residual);
+  }
+  return sum;
+}
+
+/// Residual and tangent with respect to (v_{n+1}, p), exact but for the viscosity inside tau_M and r_M. `row(a,
+/// TangentRow)` takes the rows one after another, so that a row stays in the cache.
+template <class T, class Law, class TakeRow>
+inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, const Parameters& parameters,
+                    const Law& law, ElementVector<T>& r, TakeRow&& take_row) {
+  const double rho = parameters.density;
+  set_zero(r);
+  const Flow<T> f = evaluate(state, time, parameters, law);
+  PointFlow<T> at[points];
+  T transport[points][nodes];  // m N_b + c (a.grad N_b + 1/2 (div v) N_b)
+  T stream[points][nodes];     // rho tau_M w b.grad N_a
+  const T c(time.velocity), m(time.acceleration);
+  for (int q = 0; q < points; ++q) {
+    const auto& point = fe::quadratic_fourteen_points[q];
+    at[q] = at_point(state, f, point, parameters, law);
+    add_residual(at[q], point, rho, r);
+    for (int b = 0; b < nodes; ++b) {
+      const T along = dot(at[q].a, at[q].dN[b]);
+      transport[q][b] = m * T(point.N[b]) + c * along;
+      stream[q][b] = (T(rho) * at[q].tau_m * at[q].weight) * dot(at[q].b, at[q].dN[b]);
+    }
+  }
+  // div(2 mu eps) of a unit velocity of node b along j: h_b I + H_b, times mu.
+  T laplacian[nodes];
+  Mat3<T> hessian[nodes];
+  for (int b = 0; b < nodes; ++b) {
+    const int i0 = fe::gradient_of[b][0], i1 = fe::gradient_of[b][1];
+    laplacian[b] = f.mu * T(b < 4 ? 4.0 : 8.0) * f.gg[i0][i1];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        hessian[b](i, j) = f.mu * (b < 4 ? T(4.0) * f.g[i0][i] * f.g[i0][j]
+                                         : T(4.0) * (f.g[i0][i] * f.g[i1][j] + f.g[i1][i] * f.g[i0][j]));
+  }
+  for (int a = 0; a < nodes; ++a) {
+    TangentRow<T> row;
+    for (int b = 0; b < nodes; ++b) row.velocity[b] = detail::zero_matrix<T>();
+    for (int b = 0; b < 4; ++b) row.pressure[b] = detail::zero_vector<T>();
+    for (int b = 0; b < nodes; ++b) row.continuity[b] = detail::zero_vector<T>();
+    T sum_stream(0.0);
+    T isotropic[nodes];
+    for (int b = 0; b < nodes; ++b) isotropic[b] = T(0.0);
+    for (int q = 0; q < points; ++q) {
+      const auto& point = fe::quadratic_fourteen_points[q];
+      const PointFlow<T>& p = at[q];
+      const T test = p.weight * T(rho * point.N[a]);
+      const T both = test + T(rho) * stream[q][a];
+      sum_stream += stream[q][a];
+      const T half = T(0.5) * c * test * p.divergence;
+      Mat3<T> by_n = (c * both) * p.gradient;  // stands with N_b
+      const T viscous = c * p.mu * p.weight;
+      const Vec3<T> mu_a = viscous * p.dN[a], div_v = (T(0.5) * c * test) * p.v;
+      if constexpr (!Law::constant) {
+        const T gamma = shear_rate(p.gradient);
+        const Mat3<T> twice_strain = p.gradient + transpose(p.gradient);
+        const Vec3<T> strain_a = (c * p.weight * law.slope(gamma) / gamma) * (twice_strain * p.dN[a]);
+        for (int b = 0; b < nodes; ++b) detail::add_outer(row.velocity[b], strain_a, twice_strain * p.dN[b]);
+      }
+      for (int b = 0; b < nodes; ++b) {
+        isotropic[b] += both * transport[q][b] + half * T(point.N[b]) + dot(mu_a, p.dN[b]);
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            row.velocity[b](i, j) += T(point.N[b]) * by_n(i, j) + mu_a[j] * p.dN[b][i] + div_v[i] * p.dN[b][j];
+      }
+      for (int b = 0; b < 4; ++b) detail::add(row.pressure[b], -p.weight * T(point.barycentric[b]), p.dN[a]);
+      if (a < 4)
+        for (int b = 0; b < nodes; ++b) detail::add(row.continuity[b], c * p.weight * T(point.barycentric[a]), p.dN[b]);
+    }
+    for (int b = 0; b < 4; ++b) detail::add(row.pressure[b], sum_stream, f.g[b]);
+    for (int b = 0; b < nodes; ++b) {
+      const T diagonal = isotropic[b] - c * sum_stream * laplacian[b];
+      for (int i = 0; i < 3; ++i) {
+        row.velocity[b](i, i) += diagonal;
+        for (int j = 0; j < 3; ++j) row.velocity[b](i, j) -= c * sum_stream * hessian[b](i, j);
+      }
+    }
+    take_row(a, row);
+  }
+}
+
+}  // namespace tunica::fluid::taylor_hood

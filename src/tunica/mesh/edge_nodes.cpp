@@ -1,0 +1,109 @@
+#include "tunica/mesh/edge_nodes.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <unordered_map>
+
+namespace tunica::mesh {
+
+namespace {
+
+using Ends = std::array<std::int64_t, 2>;
+
+struct HashEnds {
+  std::size_t operator()(const Ends& e) const {
+    return static_cast<std::size_t>(e[0]) * 0x9E3779B97F4A7C15U ^ static_cast<std::size_t>(e[1]);
+  }
+};
+
+class Edges {
+ public:
+  explicit Edges(MeshData& data) : data_(data), first_(static_cast<std::int64_t>(data.points.size())) {
+    node_.reserve(2 * data.tetrahedra.size());
+  }
+
+  std::int64_t add(std::int64_t a, std::int64_t b) {
+    const auto next = first_ + static_cast<std::int64_t>(ends_.size());
+    const auto [it, is_new] = node_.try_emplace(key(a, b), next);
+    if (is_new) ends_.push_back({a, b});
+    return it->second;
+  }
+  /// -1 where no element has that edge.
+  std::int64_t find(std::int64_t a, std::int64_t b) const {
+    const auto it = node_.find(key(a, b));
+    return it == node_.end() ? -1 : it->second;
+  }
+  const std::vector<Ends>& ends() const { return ends_; }
+
+ private:
+  static Ends key(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+  MeshData& data_;
+  std::int64_t first_;
+  std::unordered_map<Ends, std::int64_t, HashEnds> node_;
+  std::vector<Ends> ends_;
+};
+
+using Triangle = std::array<std::int64_t, 3>;
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+/// Triangles of lumen faces, sorted.
+std::vector<Triangle> lumen_triangles(const MeshData& data) {
+  std::vector<Triangle> list;
+  for (const auto& face : data.faces)
+    if (data.regions[static_cast<std::size_t>(face.region)].kind == RegionKind::lumen)
+      for (const auto& t : face.triangles) list.push_back(sorted(t));
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+void add_twins(MeshData& data, const Edges& edges) {
+  if (data.twins.empty()) return;
+  std::unordered_map<std::int64_t, std::int64_t> host(data.twins.begin(), data.twins.end());
+  const auto lumen = lumen_triangles(data);
+  std::unordered_map<std::int64_t, std::int64_t> edge_host;
+  for (const auto& face : data.faces) {
+    if (data.regions[static_cast<std::size_t>(face.region)].kind != RegionKind::wall) continue;
+    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+      const auto& t = face.triangles[k];
+      if (!std::all_of(t.begin(), t.end(), [&](std::int64_t node) { return host.contains(node); })) continue;
+      const Triangle hosts{host[t[0]], host[t[1]], host[t[2]]};
+      if (!std::binary_search(lumen.begin(), lumen.end(), sorted(hosts))) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto node = edges.find(hosts[i], hosts[(i + 1) % 3]);
+        if (edge_host.try_emplace(face.edges[k][i], node).second) data.twins.emplace_back(face.edges[k][i], node);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void add_edge_nodes(MeshData& data) {
+  assert(data.edges.empty());
+  Edges edges(data);
+  data.edges.resize(data.tetrahedra.size());
+  for (std::size_t e = 0; e < data.tetrahedra.size(); ++e)
+    for (std::size_t k = 0; k < 6; ++k)
+      data.edges[e][k] = edges.add(data.tetrahedra[e][static_cast<std::size_t>(tetrahedron_edges[k][0])],
+                                   data.tetrahedra[e][static_cast<std::size_t>(tetrahedron_edges[k][1])]);
+  for (auto& face : data.faces) {
+    face.edges.clear();
+    for (const auto& t : face.triangles)
+      face.edges.push_back({edges.find(t[0], t[1]), edges.find(t[1], t[2]), edges.find(t[2], t[0])});
+  }
+  data.points.reserve(data.points.size() + edges.ends().size());
+  for (const auto& [a, b] : edges.ends())
+    data.points.push_back(0.5 * (data.points[static_cast<std::size_t>(a)] + data.points[static_cast<std::size_t>(b)]));
+  for (auto& field : data.node_fields)
+    for (const auto& [a, b] : edges.ends())
+      field.values.push_back(0.5 *
+                             (field.values[static_cast<std::size_t>(a)] + field.values[static_cast<std::size_t>(b)]));
+  add_twins(data, edges);
+}
+
+}  // namespace tunica::mesh
