@@ -424,21 +424,41 @@ class Reader {
   }
 
   std::optional<Value> location(const Field& field, const std::string& text, const std::string& path, int line) {
+    const bool folder = field.kind == Kind::folder;
+    if (text.empty()) {
+      error(path, line, "is empty; a name is due: " + field.help,
+            field.default_text || !field.required ? "write a name, or leave the key out" : "write a name");
+      return std::nullopt;
+    }
     const fs::path full = (origin_.folder / text).lexically_normal();
     if (const std::string what = unusable_name(text, full); !what.empty()) {
       error(path, line, what, "give a shorter, plain name");
       return std::nullopt;
     }
-    const bool folder = field.kind == Kind::folder;
-    std::error_code ignored;  // not there and not readable come to the same
-    const bool found = folder ? fs::is_directory(full, ignored) : fs::is_regular_file(full, ignored);
-    if (text.empty() || (origin_.check_files && field.kind != Kind::path && !found)) {
-      error(path, line,
-            fmt::format("{} `{}` does not exist (looked for {})", folder ? "folder" : "file", text, full.string()),
+    if (!origin_.check_files || field.kind == Kind::path) return full.string();
+    std::error_code failure;
+    const auto status = fs::status(full, failure);
+    if (folder ? fs::is_directory(status) : fs::is_regular_file(status)) return full.string();
+    const std::string due = folder ? "folder" : "file";
+    if (const std::string what = other_kind(full, status, failure); !what.empty())
+      error(path, line, fmt::format("`{}` {}, a {} is due", text, what, due), fmt::format("name a {}", due));
+    else
+      error(path, line, fmt::format("{} `{}` does not exist (looked for {})", due, text, full.string()),
             similar_file(full));
-      return std::nullopt;
-    }
-    return full.string();
+    return std::nullopt;
+  }
+
+  /// What stands under a name that is not what it should be; empty when nothing does.
+  static std::string other_kind(const fs::path& full, const fs::file_status& status, const std::error_code& failure) {
+    std::error_code ignored;
+    if (fs::is_directory(status)) return "is a folder";
+    if (fs::is_regular_file(status)) return "is a file";
+    if (fs::exists(status) && fs::status_known(status)) return "is a device, a pipe or a socket";
+    if (failure == std::errc::too_many_symbolic_link_levels) return "is a link that leads back to itself";
+    if (fs::is_symlink(fs::symlink_status(full, ignored)))
+      return fmt::format("is a link to {}, which is not there", fs::read_symlink(full, ignored).string());
+    if (!fs::status_known(status)) return fmt::format("cannot be looked at ({})", failure.message());
+    return {};
   }
 
   /// Why no file system can have this name; empty when nothing is wrong with it. Files with longer names are made in
