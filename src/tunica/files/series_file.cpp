@@ -10,6 +10,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/base/text.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::files {
 
@@ -42,6 +43,7 @@ std::vector<SeriesEntry> read_pvd(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(path.string(), what, "give another results directory, or move this file away");
   };
+  refuse_other_than_file(path);
   std::ifstream file(path);
   if (!file) refuse("cannot be read");
   bool complete = false;
