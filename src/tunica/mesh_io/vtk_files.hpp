@@ -30,14 +30,14 @@ VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<st
                          const std::vector<std::string>& point_fields = {});
 VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
 
-/// What a .pvtu file says of its pieces.
+/// What a .pvtu or .pvtp file says of its pieces.
 struct VtkPieces {
   std::vector<std::filesystem::path> files;  ///< beside it
   std::vector<std::string> point_arrays, cell_arrays;
 };
 
-/// Reads a .pvtu file but not its pieces. Throws InputError, with the line, when it is missing, no such file or
-/// damaged.
-VtkPieces read_vtk_pieces(const std::filesystem::path& path);
+/// Reads a file that names others but not these, of `kind` UnstructuredGrid or PolyData. Throws InputError, with the
+/// line, when it is missing, no such file or damaged.
+VtkPieces read_vtk_pieces(const std::filesystem::path& path, const std::string& kind = "UnstructuredGrid");
 
 }  // namespace tunica::mesh_io

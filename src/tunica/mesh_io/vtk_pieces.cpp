@@ -26,13 +26,13 @@ void check_components(const XmlTags& tags, const XmlTag& tag) {
 
 }  // namespace
 
-VtkPieces read_vtk_pieces(const std::filesystem::path& path) {
+VtkPieces read_vtk_pieces(const std::filesystem::path& path, const std::string& kind) {
   const std::string text = text::read(path), where = path.string();
   XmlTags tags(text, where);
   const auto head = tags.next();
-  if (!head || head->name != "VTKFile" || head->attribute("type") != "PUnstructuredGrid")
-    throw InputError(where, "is no VTK XML file of type PUnstructuredGrid",
-                     "give a complete .pvtu file: export or copy it again");
+  if (!head || head->name != "VTKFile" || head->attribute("type") != "P" + kind)
+    throw InputError(where, fmt::format("is no VTK XML file of type P{}", kind),
+                     "give a complete file: export or copy it again");
   VtkPieces pieces;
   std::string_view section;
   bool complete = false;
