@@ -219,8 +219,8 @@ MeshData box(int nx, int ny, int nz, const Vec3<double>& lengths, RegionKind kin
 }
 
 std::string objection_to_counts(const TubeSizes& z) {
-  const double around = z.cells_around, side = z.cells_around / 4,
-               lumen = (side + 1) * (side + 1) + around * z.cells_radial,
+  const int core = z.cells_around / 4;
+  const double around = z.cells_around, side = core, lumen = (side + 1) * (side + 1) + around * z.cells_radial,
                wall = z.wall_thickness > 0 ? around * (z.cells_through_wall + 1.0) : 0,
                nodes = (lumen + wall) * (z.cells_along + 1.0);
   constexpr double unknowns = 4;  // of a node
