@@ -7,6 +7,15 @@
 
 namespace tunica::app {
 
+/// For options that name a file or folder: an empty text, such as a variable of the shell that is not set, would mean
+/// the folder at hand.
+inline CLI::Validator some_name() {
+  return {[](const std::string& text) {
+            return text.empty() ? "the name is empty: write one, or leave the option out" : "";
+          },
+          ""};
+}
+
 void add_check(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_fibres(CLI::App& app);

@@ -29,7 +29,8 @@ void add_material(CLI::App& app) {
       "curve with `data: {file: pull.csv, load: stretch, stress: force per area, unit: kPa}`.");
   const auto file = std::make_shared<std::string>(), directory = std::make_shared<std::string>();
   command->add_option("file", *file, "The material file")->required();
-  auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of that in the file");
+  auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of that in the file")
+                    ->check(some_name());
   command->callback([=] {
     std::optional<std::filesystem::path> folder;
     if (given->count() > 0) folder = *directory;

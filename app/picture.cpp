@@ -56,7 +56,7 @@ void add_picture(CLI::App& app) {
   auto& o = a->options;
   command->add_option("files", o.inputs, "Time series (.pvd) or meshes (.vtu, .pvtu, .vtp, .pvtp), drawn together")
       ->required();
-  command->add_option("-o,--output", o.output, "The picture, ending in .png")->required();
+  command->add_option("-o,--output", o.output, "The picture, ending in .png")->required()->check(some_name());
   command->add_option("--time", a->time, "Step of a series nearest to this time; default: the last");
   command->add_option("--array", o.array, "Point or cell array to colour by; default: none");
   command->add_option("--component", a->component, "Of a vector array, 0 1 2; default: the magnitude");

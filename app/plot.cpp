@@ -17,7 +17,9 @@ void add_plot(CLI::App& app) {
       ->required();
   command->add_option("columns", options->columns, "Columns to draw")->required();
   command->add_option("-x", options->x, "Column along the axis")->capture_default_str();
-  command->add_option("-o,--output", options->output, "The plot, ending in .svg or .png")->required();
+  command->add_option("-o,--output", options->output, "The plot, ending in .svg or .png")
+      ->required()
+      ->check(some_name());
   command->add_option("--title", options->title, "Text above the plot");
   command->callback([options] {
     for (const auto& name : drawing::plot_history(*options)) std::printf("%s\n", name.c_str());

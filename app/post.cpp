@@ -48,8 +48,10 @@ void add_post(CLI::App& app) {
   const auto case_file = std::make_shared<std::string>(), results = std::make_shared<std::string>(),
              output = std::make_shared<std::string>();
   command->add_option("case", *case_file, "The case file")->required();
-  auto* from = command->add_option("--results", *results, "Folder that `tunica run` wrote, instead of the case's");
-  auto* to = command->add_option("-o,--output", *output, "Folder of the figures, instead of the case's");
+  auto* from = command->add_option("--results", *results, "Folder that `tunica run` wrote, instead of the case's")
+                   ->check(some_name());
+  auto* to =
+      command->add_option("-o,--output", *output, "Folder of the figures, instead of the case's")->check(some_name());
   command->add_flag("--overwrite", request->overwrite, "Replace what is there");
   command->callback([=] {
     request->case_file = *case_file;

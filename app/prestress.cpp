@@ -25,7 +25,8 @@ void add_prestress(CLI::App& app) {
   const auto request = std::make_shared<stages::PrestressRequest>();
   const auto case_file = std::make_shared<std::string>(), directory = std::make_shared<std::string>();
   command->add_option("case", *case_file, "The case file")->required();
-  auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of the case's");
+  auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of the case's")
+                    ->check(some_name());
   auto* keep = command->add_flag("--keep-flow", request->keep_flow, "Take the steady flow that is in the folder");
   command->add_flag("--overwrite", request->overwrite, "Replace what is there")->excludes(keep);
   command->callback([=] {

@@ -89,7 +89,8 @@ void add_run(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   command->add_option("case", options->case_file, "The case file")->required();
   auto* directory =
-      command->add_option("-o,--output", options->directory, "Folder of the results, instead of the case's");
+      command->add_option("-o,--output", options->directory, "Folder of the results, instead of the case's")
+          ->check(some_name());
   auto* restart = command
                       ->add_option("--restart", options->restart_file,
                                    "Go on from the last checkpoint in the folder of results, or from FILE")

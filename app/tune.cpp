@@ -28,7 +28,8 @@ void add_tune(CLI::App& app) {
   const auto request = std::make_shared<stages::TuneRequest>();
   const auto case_file = std::make_shared<std::string>(), directory = std::make_shared<std::string>();
   command->add_option("case", *case_file, "The case file")->required();
-  auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of the case's");
+  auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of the case's")
+                    ->check(some_name());
   command->add_flag("--overwrite", request->overwrite, "Replace the tuning of another case in that folder");
   command->callback([=] {
     request->case_file = *case_file;

@@ -16,7 +16,7 @@ void add_vary(CLI::App& app) {
   };
   const auto given = std::make_shared<Given>();
   command->add_option("case", given->file, "The case file to start from")->required();
-  command->add_option("-o,--output", given->output, "The new case file")->required();
+  command->add_option("-o,--output", given->output, "The new case file")->required()->check(some_name());
   command->add_option("--set", given->settings, "Key and value, as often as wanted")->type_name("KEY=VALUE");
   command->add_option("--unset", given->removed, "Key that the new case does not have")->type_name("KEY");
   command->add_flag("--overwrite", given->overwrite, "Replace the new case file when it is there");

@@ -16,7 +16,9 @@ void add_verify(CLI::App& app) {
       "Example:\n  tunica verify -o verification\n"
       "writes tables (.csv) and figures (.svg). Exit codes: 0 all passed, 3 a comparison failed.");
   const auto folder = std::make_shared<std::string>("verification");
-  command->add_option("-o,--output", *folder, "Folder of tables and figures")->capture_default_str();
+  command->add_option("-o,--output", *folder, "Folder of tables and figures")
+      ->capture_default_str()
+      ->check(some_name());
   command->callback([folder] {
     bool passed = false;
     {

@@ -167,6 +167,12 @@ def face(triangles, how):
                [("GlobalNodeID", [n + 1 for n in used], "Int32", "i"), ("thickness", [0.1] * len(used), "Float64", "d")])
 
 
+def results(how):
+    return vtk("UnstructuredGrid", points[:8], lower, how,
+               [("von Mises stress [kPa]", [0.5 * k for k in range(6)], "Float32", "f")],
+               [("displacement [mm]", [0.25 * k for k in range(24)], "Float32", "f", 3)])
+
+
 def mesh_corpus():
     write("mesh/gmsh/cubes.msh", gmsh(0, False))
     write("mesh/gmsh/cubes_binary.msh", gmsh(1, False))
@@ -175,6 +181,16 @@ def mesh_corpus():
     for how in ("ascii", "base64", "zlib", "raw"):
         write("mesh/volume/cube_%s.vtu" % how, volume(how))
         write("mesh/face/inlet_%s.vtp" % how, face(inlet, how))
+    for how in ("zlib", "raw"):
+        write("mesh/results/wall_%s.vtu" % how, results(how))
+    write("mesh/pieces/wall.pvtu",
+          '<?xml version="1.0"?>\n<VTKFile type="PUnstructuredGrid" version="0.1" byte_order="LittleEndian">\n'
+          '  <PUnstructuredGrid GhostLevel="0">\n    <PPointData>\n'
+          '      <PDataArray type="Float32" Name="displacement [mm]" NumberOfComponents="3"/>\n    </PPointData>\n'
+          '    <PCellData>\n      <PDataArray type="Float32" Name="von Mises stress [kPa]" NumberOfComponents="1"/>\n'
+          '    </PCellData>\n    <PPoints>\n'
+          '      <PDataArray type="Float32" Name="Points" NumberOfComponents="3"/>\n    </PPoints>\n'
+          '    <Piece Source="wall_0.vtu"/>\n    <Piece Source="wall_1.vtu"/>\n  </PUnstructuredGrid>\n</VTKFile>\n')
     for target in ("mesh", "artifacts"):
         write(target + "/beside/sv/mesh-complete.mesh.vtu", volume("ascii"))
         for name, triangles in (("inlet", inlet), ("outlet", outlet), ("side", side)):

@@ -1,7 +1,8 @@
-// Meshes from Gmsh files and SimVascular folders.
+// Meshes from Gmsh files and SimVascular folders, and fields on them.
 #include "fuzz/target.hpp"
 #include "tunica/mesh_io/gmsh.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
+#include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::fuzz {
 
@@ -27,6 +28,10 @@ void read_one(const fs::path& file, const std::string& kind) {
     fs::copy_file(file, "volume/mesh-complete.mesh.vtu", fs::copy_options::overwrite_existing);
     folder.regions = mesh_io::NamedRegions{"region", {{1, "first"}, {2, "second"}}};
     mesh_io::read_simvascular("volume", RegionKind::wall, "wall", folder);
+  } else if (kind == "results") {
+    mesh_io::read_vtk_volume(file, {"von Mises stress [kPa]"}, {"displacement [mm]"});
+  } else if (kind == "pieces") {
+    mesh_io::read_vtk_pieces(file);
   } else {
     fs::copy_file(file, "face/mesh-surfaces/inlet.vtp", fs::copy_options::overwrite_existing);
     folder.face_arrays = {{"inlet", {"thickness"}}};

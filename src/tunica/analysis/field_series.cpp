@@ -1,16 +1,6 @@
 #include "tunica/analysis/field_series.hpp"
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <array>
@@ -20,10 +10,11 @@
 #include <unordered_map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/csv_file.hpp"
 #include "tunica/files/series_file.hpp"
-#include "tunica/mesh_io/vtk_messages.hpp"
+#include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::analysis {
 
@@ -33,6 +24,7 @@ namespace fs = std::filesystem;
 namespace dimension = config::dimension;
 using mesh::RegionKind;
 
+constexpr int tetrahedron = 10;  // VTK_TETRA
 constexpr const char* run_again = "run the case again, with fields written (`output.every`)";
 
 using Place = std::array<float, 3>;
@@ -62,10 +54,35 @@ std::pair<std::string, std::string> name_and_unit(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 2, text.size() - at - 3)};
 }
 
+/// What reads a file for others says how to mend it as such; results are best computed again.
+template <class Read>
+auto as_results(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    auto problems = error.problems();
+    for (auto& problem : problems) problem.remedy = run_again;
+    throw InputError(std::move(problems));
+  }
+}
+
+mesh_io::VtkPieces head_of(const fs::path& file) {
+  if (!fs::exists(file)) throw InputError(file.string(), "is missing, though the series names it", run_again);
+  return as_results([&] { return mesh_io::read_vtk_pieces(file); });
+}
+
+/// A region at one time: the pieces that ranks have written, in the order of the file that names them.
+struct RegionFields {
+  fs::path file;
+  std::vector<std::string> point_arrays;   ///< all that there are
+  std::vector<std::string> points, cells;  ///< those that have been read, as the fields of the pieces
+  std::vector<mesh_io::VtkCells> pieces;
+};
+
 /// Points of a file by the nodes of a region, and its cells by the elements.
 struct Numbering {
   std::vector<float> places;                  ///< that it was made for
-  std::vector<vtkIdType> cells;               ///< the same for the connectivity
+  std::vector<std::int64_t> cells;            ///< the same for the connectivity
   std::vector<std::int64_t> nodes, elements;  ///< of MeshData, by point and cell
 };
 
@@ -111,11 +128,8 @@ struct FieldSeries::Implementation {
   void find_stresses() {
     for (std::size_t r = 0; r < data.regions.size(); ++r) {
       if (data.regions[r].kind != RegionKind::wall) continue;
-      vtkNew<vtkXMLPUnstructuredGridReader> reader;
-      open(reader, r, 0);
-      auto* arrays = reader->GetCellDataArraySelection();
-      for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
-        const auto name = name_and_unit(arrays->GetArrayName(k)).first;
+      for (const auto& array : head_of(path(r, 0)).cell_arrays) {
+        const auto name = name_and_unit(array).first;
         if (name.find("stress") != std::string::npos &&
             std::find(stresses.begin(), stresses.end(), name) == stresses.end())
           stresses.push_back(name);
@@ -125,53 +139,54 @@ struct FieldSeries::Implementation {
 
   fs::path path(std::size_t region, std::size_t frame) const { return folder / files[region][frame]; }
 
-  void open(vtkXMLPUnstructuredGridReader* reader, std::size_t region, std::size_t frame) const {
-    const auto file = path(region, frame);
-    if (!fs::exists(file)) throw InputError(file.string(), "is missing, though the series names it", run_again);
-    const mesh_io::FirstVtkMessage message(reader);
-    reader->SetFileName(file.c_str());
-    reader->UpdateInformation();
-    if (!message.text().empty()) throw InputError(file.string(), "cannot be read: " + message.text(), run_again);
+  /// Is the array of points of a region of use? Of a wall the motion and the stresses are all that is wanted.
+  bool is_wanted(const std::string& array, std::size_t region) const {
+    const auto name = name_and_unit(array).first;
+    if (name == "displacement") return description.wall;
+    return data.regions[region].kind == RegionKind::lumen &&
+           (name == "velocity" || name == "pressure" || name == "wall shear stress");
+  }
+
+  RegionFields read_pieces(std::size_t region, std::size_t frame) const {
+    RegionFields r{path(region, frame), {}, {}, {}, {}};
+    auto head = head_of(r.file);
+    for (const auto& array : head.point_arrays)
+      if (is_wanted(array, region)) r.points.push_back(array);
+    for (const auto& array : head.cell_arrays)
+      if (std::find(stresses.begin(), stresses.end(), name_and_unit(array).first) != stresses.end())
+        r.cells.push_back(array);
+    r.point_arrays = std::move(head.point_arrays);
+    for (const auto& file : head.files)
+      r.pieces.push_back(as_results([&] { return mesh_io::read_vtk_volume(file, r.cells, r.points); }));
+    return r;
   }
 
   void read_region(std::size_t region, std::size_t frame, FieldFrame& into) {
-    vtkNew<vtkXMLPUnstructuredGridReader> reader;
-    open(reader, region, frame);
-    const mesh_io::FirstVtkMessage message(reader);
-    if (data.regions[region].kind == RegionKind::wall)  // the motion and the stresses are all that is wanted
-      reader->GetPointDataArraySelection()->DisableAllArrays();
-    auto* points = reader->GetPointDataArraySelection();
-    for (int k = 0; k < points->GetNumberOfArrays(); ++k)
-      if (name_and_unit(points->GetArrayName(k)).first == "displacement") points->EnableArray(points->GetArrayName(k));
-    reader->Update();
-    const auto file = path(region, frame);
-    if (!message.text().empty()) throw InputError(file.string(), "cannot be read: " + message.text(), run_again);
-    vtkUnstructuredGrid* grid = reader->GetOutput();
-    number(grid, region, file);
-    take_nodal(grid, region, file, into);
-    take_stresses(grid, region, into);
+    const auto fields = read_pieces(region, frame);
+    number(fields, region);
+    take_nodal(fields, region, into);
+    take_stresses(fields, region, into);
   }
 
-  void number(vtkUnstructuredGrid* grid, std::size_t region, const fs::path& file) {
+  void number(const RegionFields& fields, std::size_t region) {
     Numbering& n = numbering[region];
-    std::vector<float> places(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()));
-    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
-      double x[3];
-      grid->GetPoint(i, x);
-      for (int c = 0; c < 3; ++c) places[3 * static_cast<std::size_t>(i) + c] = static_cast<float>(x[c]);
-    }
-    std::vector<vtkIdType> cells;
-    for (vtkIdType e = 0; e < grid->GetNumberOfCells(); ++e) {
-      vtkIdType count = 0;
-      const vtkIdType* corners = nullptr;
-      grid->GetCellPoints(e, count, corners);
-      if (count != 4) throw InputError(file.string(), "holds cells that are no tetrahedra", run_again);
-      cells.insert(cells.end(), corners, corners + 4);
+    std::vector<float> places;
+    std::vector<std::int64_t> cells;
+    for (const auto& piece : fields.pieces) {
+      const auto first = std::ssize(places) / 3;
+      for (const auto& x : piece.points)
+        for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(x[c]));
+      for (std::size_t e = 0; e < piece.types.size(); ++e)
+        if (piece.types[e] != tetrahedron || piece.offsets[e + 1] - piece.offsets[e] != 4)
+          throw InputError(fields.file.string(), "holds cells that are no tetrahedra", run_again);
+      for (const auto point : piece.connectivity) cells.push_back(first + point);
     }
     if (places == n.places && cells == n.cells) return;
-    n = {std::move(places), std::move(cells), {}, {}};
-    number_points(n, region, file);
-    number_cells(n, region, file);
+    n = {};  // not kept where it turns out not to be of this mesh
+    Numbering found{std::move(places), std::move(cells), {}, {}};
+    number_points(found, region, fields.file);
+    number_cells(found, region, fields.file);
+    n = std::move(found);
   }
 
   [[noreturn]] static void refuse(const fs::path& file, const std::string& what) {
@@ -217,47 +232,62 @@ struct FieldSeries::Implementation {
       refuse(file, fmt::format("has {} elements, the mesh has {}", n.elements.size(), known.size()));
   }
 
+  /// Factor of the unit that a file gives an array.
+  static double factor_of(const std::string& unit, const config::Dimension& due, const fs::path& file) {
+    try {
+      return config::unit_factor(unit, due);
+    } catch (const InputError& error) {
+      throw InputError(file.string(), format(error.problems().front()), run_again);
+    }
+  }
+
   /// One array by its name without unit, to the nodes of the region.
-  void take(vtkUnstructuredGrid* grid, std::size_t region, const fs::path& file, const std::string& name,
-            const config::Dimension& due, int components, std::vector<double>& to) const {
-    auto* arrays = grid->GetPointData();
-    std::string names;
-    for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
-      const auto [found, unit] = name_and_unit(arrays->GetArrayName(k));
-      names += (names.empty() ? "" : ", ") + found;
-      vtkDataArray* array = arrays->GetArray(k);
-      if (found != name || array == nullptr || array->GetNumberOfComponents() != components) continue;
-      const double factor = config::unit_factor(unit, due);
-      const auto width = static_cast<std::size_t>(components);
-      to.resize(width * data.points.size(), 0.0);
-      for (std::size_t i = 0; i < numbering[region].nodes.size(); ++i)
-        for (std::size_t c = 0; c < width; ++c)
-          to[width * static_cast<std::size_t>(numbering[region].nodes[i]) + c] =
-              factor * array->GetComponent(static_cast<vtkIdType>(i), static_cast<int>(c));
+  void take(const RegionFields& fields, std::size_t region, const std::string& name, const config::Dimension& due,
+            std::size_t components, std::vector<double>& to) const {
+    for (std::size_t k = 0; k < fields.points.size(); ++k) {
+      const auto [found, unit] = name_and_unit(fields.points[k]);
+      if (found != name) continue;
+      const double factor = factor_of(unit, due, fields.file);
+      to.resize(components * data.points.size(), 0.0);
+      auto node = numbering[region].nodes.begin();
+      for (const auto& piece : fields.pieces) {
+        const auto& field = piece.point_fields[k];
+        if (field.values.size() != components * piece.points.size())
+          throw InputError(fields.file.string(), fmt::format("`{}` does not have {} components", name, components),
+                           run_again);
+        for (std::size_t i = 0; i < piece.points.size(); ++i, ++node)
+          for (std::size_t c = 0; c < components; ++c)
+            to[components * static_cast<std::size_t>(*node) + c] = factor * field.values[components * i + c];
+      }
       return;
     }
-    throw InputError(file.string(), fmt::format("has no field `{}`, only: {}", name, names), run_again);
+    std::string names;
+    for (const auto& array : fields.point_arrays)
+      names += (names.empty() ? "" : ", ") + text::printable(name_and_unit(array).first);
+    throw InputError(fields.file.string(), fmt::format("has no field `{}`, only: {}", name, names), run_again);
   }
 
-  void take_nodal(vtkUnstructuredGrid* grid, std::size_t region, const fs::path& file, FieldFrame& into) const {
-    if (description.wall) take(grid, region, file, "displacement", dimension::length, 3, into.displacement);
+  void take_nodal(const RegionFields& fields, std::size_t region, FieldFrame& into) const {
+    if (description.wall) take(fields, region, "displacement", dimension::length, 3, into.displacement);
     if (data.regions[region].kind != RegionKind::lumen) return;
-    take(grid, region, file, "velocity", dimension::velocity, 3, into.velocity);
-    take(grid, region, file, "pressure", dimension::pressure, 1, into.pressure);
-    take(grid, region, file, "wall shear stress", dimension::pressure, 3, into.wall_shear);
+    take(fields, region, "velocity", dimension::velocity, 3, into.velocity);
+    take(fields, region, "pressure", dimension::pressure, 1, into.pressure);
+    take(fields, region, "wall shear stress", dimension::pressure, 3, into.wall_shear);
   }
 
-  void take_stresses(vtkUnstructuredGrid* grid, std::size_t region, FieldFrame& into) const {
-    auto* arrays = grid->GetCellData();
-    for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
-      const auto [name, unit] = name_and_unit(arrays->GetArrayName(k));
+  void take_stresses(const RegionFields& fields, std::size_t region, FieldFrame& into) const {
+    for (std::size_t k = 0; k < fields.cells.size(); ++k) {
+      const auto [name, unit] = name_and_unit(fields.cells[k]);
+      const double factor = factor_of(unit, dimension::pressure, fields.file);
       const auto found = std::find(stresses.begin(), stresses.end(), name);
-      if (found == stresses.end()) continue;
-      const double factor = config::unit_factor(unit, dimension::pressure);
       auto& to = into.stress[static_cast<std::size_t>(found - stresses.begin())];
-      for (std::size_t e = 0; e < numbering[region].elements.size(); ++e)
-        to[static_cast<std::size_t>(numbering[region].elements[e])] =
-            factor * arrays->GetArray(k)->GetComponent(static_cast<vtkIdType>(e), 0);
+      auto element = numbering[region].elements.begin();
+      for (const auto& piece : fields.pieces) {
+        const auto& field = piece.fields[k];
+        if (field.values.size() != piece.types.size())
+          throw InputError(fields.file.string(), fmt::format("`{}` does not have one component", name), run_again);
+        for (const double value : field.values) to[static_cast<std::size_t>(*element++)] = factor * value;
+      }
     }
   }
 };

@@ -9,8 +9,10 @@
 #include <fstream>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::artifacts {
 
@@ -33,6 +35,8 @@ std::optional<std::int64_t> step_of_line(const std::string& line, std::ptrdiff_t
   }
   return step;
 }
+
+constexpr std::size_t longest_shown = 2000;  // of a header
 
 std::string missing_steps(std::int64_t from, std::int64_t to) {
   return from == to ? fmt::format("the line of step {} is missing", from)
@@ -99,20 +103,30 @@ class KeptLines {
   std::vector<std::string> damage_, bad_;  ///< `bad_`: since the last line that is kept
 };
 
+/// A line as it was written: an editor may have saved the file with the line ends of another system.
+std::istream& take_line(std::istream& in, std::string& line) {
+  std::getline(in, line);
+  if (line.ends_with('\r')) line.pop_back();
+  return in;
+}
+
 /// Lines of `file` up to `step`, the header included, and what is wrong with them.
 KeptLines kept_lines(const fs::path& file, const std::string& header, std::int64_t step, CsvTable::Lines lines) {
+  files::refuse_other_than_file(file);
   std::ifstream in(file);
   if (!in)
     throw InputError(file.string(), "the history to be continued is missing",
                      "put it back, or begin anew with --overwrite");
   std::string line;
-  std::getline(in, line);
+  take_line(in, line);
   if (line != header)
-    throw InputError(file.string(), fmt::format("has the columns `{}`, this run has `{}`", line, header),
-                     "restart with the faces and output units of the case that wrote it, or in another directory");
+    throw InputError(
+        file.string(),
+        fmt::format("has the columns `{}`, this run has `{}`", text::printable(line, longest_shown), header),
+        "restart with the faces and output units of the case that wrote it, or in another directory");
   KeptLines kept(file, step, lines);
   const auto cells = std::count(header.begin(), header.end(), ',') + 1;
-  for (int number = 2; std::getline(in, line) && !in.eof() && kept.add(line, number, cells);) ++number;
+  for (int number = 2; take_line(in, line) && !in.eof() && kept.add(line, number, cells);) ++number;
   kept.finish();
   return kept;
 }

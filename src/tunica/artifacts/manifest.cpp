@@ -16,6 +16,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/hash.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/files/time_stamp.hpp"
 
@@ -57,6 +58,7 @@ bool is_series_file(std::string name, const std::string& region) {
 
 /// "Discarded" when it is no JSON, as after a loss of power.
 ordered_json read_manifest(const fs::path& file) {
+  files::refuse_other_than_file(file);
   std::ifstream in(file);
   return ordered_json::parse(in, nullptr, false);
 }

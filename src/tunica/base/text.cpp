@@ -144,6 +144,8 @@ std::string printable(std::string_view text, std::size_t longest) {
     const std::size_t length = length_at(text, i);
     if (length == 0 || is_control(text[i]) || text[i] == '\n' || text[i] == '\r' || text[i] == '\t')
       result += fmt::format("\\x{:02x}", byte(text, i));
+    else if (length == 2 && byte(text, i) == 0xC2 && byte(text, i + 1) < 0xA0)  // C1, which terminals obey as well
+      result += fmt::format("\\x{:02x}\\x{:02x}", byte(text, i), byte(text, i + 1));
     else
       result += text.substr(i, length);
     i += std::max<std::size_t>(length, 1);

@@ -15,10 +15,18 @@ using config::Schema;
 
 namespace {
 
+/// The usual values of a constant and of a step.
+template <class Owner>
+void expect_usual(Schema<Owner>& schema, const config::Dimension& due) {
+  if (due == dimension::pressure) schema.plausible("-400 mmHg", "400 mmHg");
+  if (due == dimension::volume_flow) schema.plausible("-60 L/min", "60 L/min");
+}
+
 Schema<Step> step_schema(const config::Dimension& due) {
-  return Schema<Step>("step", "Constant between two times, zero before and after.")
-      .quantity("value", &Step::value, due, anything(), "Value while it lasts")
-      .quantity("start", &Step::start, dimension::time, at_least(0), "Zero up to and at this time")
+  Schema<Step> schema("step", "Constant between two times, zero before and after.");
+  schema.quantity("value", &Step::value, due, anything(), "Value while it lasts");
+  expect_usual(schema, due);
+  return schema.quantity("start", &Step::start, dimension::time, at_least(0), "Zero up to and at this time")
       .by_default()
       .quantity("end", &Step::end, dimension::time, above(0), "Zero after this time; for ever when left out")
       .check([](const Step& step, Problems& problems) {
@@ -94,8 +102,7 @@ using Source = std::variant<double, Step, TableSource>;
 Schema<Source> source_schema(const config::Dimension& due) {
   Schema<Source> schema("source", "Constant, step or table.");
   schema.one_of().quantity("value", emplace<double>, due, anything(), "Constant value");
-  if (due == dimension::pressure) schema.plausible("-400 mmHg", "400 mmHg");
-  if (due == dimension::volume_flow) schema.plausible("-60 L/min", "60 L/min");
+  expect_usual(schema, due);
   return schema.section("step", emplace<Step>, step_schema(due), "Constant between two times, zero before and after")
       .section("table", emplace<TableSource>, table_schema(due), "Time course from a file");
 }

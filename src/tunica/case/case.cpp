@@ -124,6 +124,8 @@ Schema<mesh::TubeSizes> tube_schema() {
         if (tube.cells_around % 4 != 0)
           problems.add("cells_around", fmt::format("is {}, no multiple of 4", tube.cells_around),
                        fmt::format("write {}", tube.cells_around / 4 * 4 + 4));
+        if (auto what = mesh::objection_to_counts(tube); !what.empty())
+          problems.add("", what, "take fewer cells: the mesh has the product of their numbers");
       });
 }
 
@@ -222,6 +224,7 @@ void check_case(const Case& c, Problems& problems) {
   }
   check_chain(c, problems);
   check_keys("compare", c.compare, "compared law", problems);
+  if (c.wall) check_keys("wall.regions", c.wall->regions, "region", problems);
   if (c.prestress && c.solves_wall()) {
     if (coupled && !c.prestress->flow)
       problems.add("prestress.flow", "is missing: the traction of the flow loads the wall",

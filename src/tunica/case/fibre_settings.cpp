@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "tunica/case/keys.hpp"
+
 namespace tunica::case_file {
 
 namespace {
@@ -70,7 +72,10 @@ Schema<FibreSettings> FibreSettings::schema() {
       .section("tears", &FibreSettings::tears, tears_schema(),
                "For the distance to the nearest tear; none when left out")
       .path("output", &FibreSettings::output, "Folder of the mesh with its directions, relative to that of this file")
-      .by_default("fibres");
+      .by_default("fibres")
+      .check([](const FibreSettings& c, config::Problems& problems) {
+        check_keys("regions", c.regions, "region", problems);
+      });
 }
 
 }  // namespace tunica::case_file

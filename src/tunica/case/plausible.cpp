@@ -58,13 +58,13 @@ class Checker {
   void tables() {
     for (const auto& [face, condition] : case_.boundary) {
       const std::string where = "boundary." + face;
-      if (const auto* flow = std::get_if<bc::Flow>(&condition)) course(where, flow->course, usual_flow, 1);
+      if (const auto* flow = std::get_if<bc::Flow>(&condition)) course(where, flow->course, usual_flow);
       if (const auto* pressure = std::get_if<bc::Pressure>(&condition))
-        course(where, pressure->pressure, usual_pressure, 1);
+        course(where, pressure->pressure, usual_pressure);
       if (const auto* velocity = std::get_if<bc::Velocity>(&condition))
-        course(where, velocity->course, usual_velocity, norm(velocity->value));
+        course(where, velocity->course, usual_velocity, velocity->value);
       if (const auto* traction = std::get_if<bc::Traction>(&condition))
-        course(where, traction->course, usual_traction, norm(traction->vector));
+        course(where, traction->course, usual_traction, traction->vector);
     }
   }
 
@@ -87,7 +87,7 @@ class Checker {
     for (const auto& [face, condition] : case_.boundary)
       if (const auto* rcr = std::get_if<bc::Rcr>(&condition)) {
         const double constant = rcr->distal * rcr->capacitance;
-        if (rcr->distal > usual_resistance || rcr->capacitance > usual_capacitance) continue;
+        if (is_unusual(rcr->distal) || rcr->capacitance > usual_capacitance) continue;
         if (constant < shortest_time_constant || constant > longest_time_constant)
           warnings.push_back({"boundary." + face,
                               fmt::format("the Windkessel empties with a time constant (distal x capacitance) of "
@@ -99,9 +99,15 @@ class Checker {
   }
 
  private:
-  void course(const std::string& where, const bc::WaveformInput& input, const Usual& usual, double factor) {
+  /// Was a resistance warned of as it was read?
+  static bool is_unusual(double resistance) { return resistance > usual_resistance; }
+
+  /// `vector`: what the course is a factor of, when it is one.
+  void course(const std::string& where, const bc::WaveformInput& input, const Usual& usual,
+              const std::optional<Vec3<double>>& vector = {}) {
+    const double factor = vector ? norm(*vector) : 1;
     const auto* source = std::get_if<bc::TableSource>(&input.source);
-    if (!source) return;
+    if (!source) return constant(where, input, usual, vector);
     const auto table = bc::read_table(source->file);
     const std::string file = fmt::format("{} ({})", where, text::printable(source->file.path.string(), 400));
     const double size = largest_size(input) * factor;
@@ -109,13 +115,30 @@ class Checker {
       warnings.push_back({file,
                           fmt::format("the {} of the table reaches {:.4g} {}; {} is usual", usual.what,
                                       size / usual.shown_unit, usual.shown, usual.text),
-                          factor == 1 ? meant(size / source->file.value_unit, usual.due, usual.likely, 0.8 * usual.most)
-                                      : "check the unit and `scale`"});
+                          !vector ? meant(size / source->file.value_unit, usual.due, usual.likely, 0.8 * usual.most)
+                                  : "check the unit and `scale`"});
     const auto waveform = bc::make_waveform(input);
     if (waveform.period())
       period(file, *waveform.period(), source->file.time_unit);
     else
       duration(file, table.times.back() - table.times.front(), source->file.time_unit);
+  }
+
+  /// A constant or a step with its scale. What is beyond the usual as it is typed has been warned of as it was read.
+  void constant(const std::string& where, const bc::WaveformInput& input, const Usual& usual,
+                const std::optional<Vec3<double>>& vector) {
+    const double course = largest_size(input), size = course * (vector ? norm(*vector) : 1);
+    double typed = 0;
+    if (vector)
+      for (int i = 0; i < 3; ++i) typed = std::max(typed, std::abs((*vector)[i]));
+    else if (input.scale != 0)
+      typed = course / std::abs(input.scale);
+    constexpr double rounding = 1 + 1e-12;  // of units
+    if (typed > usual.most * rounding || size <= usual.most * rounding) return;
+    warnings.push_back({where,
+                        fmt::format("the {} reaches {:.4g} {} with its {}; {} is usual", usual.what,
+                                    size / usual.shown_unit, usual.shown, vector ? "waveform" : "scale", usual.text),
+                        "check the unit and `scale`"});
   }
 
   void period(const std::string& where, double seconds, double unit) {
@@ -170,19 +193,20 @@ class Checker {
     double conductance = 0, driven = 0;
   };
 
-  /// None where a pattern stands for any number of outlets, or an outlet does not resist. What is beyond the usual has
-  /// been warned of as it was read.
+  /// None where a pattern stands for any number of outlets, or an outlet does not resist. A value that is beyond the
+  /// usual has been warned of as it was read; their sum may be without any of them.
   std::optional<Parallel> parallel_outlets() const {
     Parallel all;
     for (const auto& [face, condition] : case_.boundary) {
-      double resistance = 0, distal_pressure = 0;
+      double resistance = 0, distal_pressure = 0, largest = 0;
       if (const auto* r = std::get_if<bc::Resistance>(&condition))
-        resistance = r->resistance, distal_pressure = r->distal_pressure;
+        resistance = largest = r->resistance, distal_pressure = r->distal_pressure;
       else if (const auto* rcr = std::get_if<bc::Rcr>(&condition))
-        resistance = rcr->proximal + rcr->distal, distal_pressure = rcr->distal_pressure;
+        resistance = rcr->proximal + rcr->distal, largest = std::max(rcr->proximal, rcr->distal),
+        distal_pressure = rcr->distal_pressure;
       else
         continue;
-      if (is_pattern(face) || !(resistance > 0) || resistance > usual_resistance) return std::nullopt;
+      if (is_pattern(face) || !(resistance > 0) || is_unusual(largest)) return std::nullopt;
       all.conductance += 1 / resistance;
       all.driven += distal_pressure / resistance;
     }

@@ -14,7 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-YAML::Node load(const std::string& yaml, const std::string& name) {
+/// yaml-cpp takes CR LF for the end of a line, but not CR alone.
+std::string with_line_feeds(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';
+  return text;
+}
+
+YAML::Node load(const std::string& given, const std::string& name) {
+  const std::string yaml = with_line_feeds(given);
   try {
     refuse_unreadable_yaml(yaml, name);
     const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "tunica/config/document.hpp"
+#include "tunica/config/file_names.hpp"
 #include "tunica/config/nearest.hpp"
 
 namespace tunica::config {
@@ -424,36 +425,28 @@ class Reader {
   }
 
   std::optional<Value> location(const Field& field, const std::string& text, const std::string& path, int line) {
+    const bool folder = field.kind == Kind::folder;
+    if (text.empty()) {
+      error(path, line, "is empty; a name is due: " + field.help,
+            field.default_text || !field.required ? "write a name, or leave the key out" : "write a name");
+      return std::nullopt;
+    }
     const fs::path full = (origin_.folder / text).lexically_normal();
     if (const std::string what = unusable_name(text, full); !what.empty()) {
       error(path, line, what, "give a shorter, plain name");
       return std::nullopt;
     }
-    const bool folder = field.kind == Kind::folder;
-    std::error_code ignored;  // not there and not readable come to the same
-    const bool found = folder ? fs::is_directory(full, ignored) : fs::is_regular_file(full, ignored);
-    if (text.empty() || (origin_.check_files && field.kind != Kind::path && !found)) {
-      error(path, line,
-            fmt::format("{} `{}` does not exist (looked for {})", folder ? "folder" : "file", text, full.string()),
+    if (!origin_.check_files || field.kind == Kind::path) return full.string();
+    std::error_code failure;
+    const auto status = fs::status(full, failure);
+    if (folder ? fs::is_directory(status) : fs::is_regular_file(status)) return full.string();
+    const std::string due = folder ? "folder" : "file";
+    if (const std::string what = other_than_wanted(full, status, failure); !what.empty())
+      error(path, line, fmt::format("`{}` {}, a {} is due", text, what, due), fmt::format("name a {}", due));
+    else
+      error(path, line, fmt::format("{} `{}` does not exist (looked for {})", due, text, full.string()),
             similar_file(full));
-      return std::nullopt;
-    }
-    return full.string();
-  }
-
-  /// Why no file system can have this name; empty when nothing is wrong with it. Files with longer names are made in
-  /// folders, so something is left for them.
-  static std::string unusable_name(const std::string& text, const fs::path& full) {
-    constexpr std::size_t longest_part = 255, longest_whole = 3800;  // bytes
-    for (const fs::path& part : fs::path(text))
-      if (part.native().size() > longest_part)
-        return fmt::format("a file or folder name of {} bytes, `{}...`; at most {} are possible", part.native().size(),
-                           part.native().substr(0, 40), longest_part);
-    if (const auto size = fs::absolute(full).native().size(); size > longest_whole)
-      return fmt::format("a path of {} bytes, at most {} are possible", size, longest_whole);
-    const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-    if (std::any_of(text.begin(), text.end(), control)) return "the name holds control characters";
-    return {};
+    return std::nullopt;
   }
 
   static std::string similar_file(const fs::path& full) {

@@ -29,7 +29,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWarpVector.h>
 #include <vtkWindowToImageFilter.h>
-#include <vtkXMLGenericDataObjectReader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +39,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/picture_data.hpp"
+#include "tunica/drawing/picture_file.hpp"
 #include "tunica/drawing/picture_lines.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/outputs.hpp"
@@ -127,12 +127,8 @@ std::string full_name(vtkFieldData& fields, const std::string& wanted) {
 }
 
 Layer read_layer(const std::string& file) {
-  vtkNew<vtkXMLGenericDataObjectReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  auto* data = vtkPointSet::SafeDownCast(reader->GetOutput());
-  if (!data || data->GetNumberOfPoints() == 0)
-    throw InputError(file, "holds no points, or is no VTK XML mesh", "give .vtu, .pvtu, .vtp, .pvtp or .pvd files");
+  const auto data = vtkSmartPointer<vtkPointSet>::Take(read_points(file));
+  if (data->GetNumberOfPoints() == 0) throw InputError(file, "holds no points", "give a file with a mesh");
   return {.file = file, .data = data, .surface = nullptr};
 }
 

@@ -73,6 +73,7 @@ std::optional<Owner> parse(const std::string& text) {
 enum class Reading { missing, unreadable, done };
 
 Reading read_owner(const fs::path& lock, Owner& owner) {
+  refuse_other_than_file(lock);
   std::ifstream stream(lock);
   std::error_code ignored;
   if (!stream) return fs::exists(fs::symlink_status(lock, ignored)) ? Reading::unreadable : Reading::missing;

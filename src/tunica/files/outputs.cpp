@@ -82,4 +82,14 @@ void try_output(const fs::path& file) {
   try_outputs(folder, {file.filename()});
 }
 
+void refuse_other_than_file(const fs::path& file) {
+  std::error_code ignored;  // what cannot be looked at is found to be so where it is opened
+  const auto status = fs::status(file, ignored);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  throw InputError(file.string(),
+                   fmt::format("is a {}, though tunica keeps a file of that name",
+                               fs::is_directory(status) ? "folder" : "device, a pipe or a socket"),
+                   "move it away, or choose another folder for the results");
+}
+
 }  // namespace tunica::files

@@ -16,4 +16,8 @@ void try_outputs(const std::filesystem::path& folder, const std::vector<std::fil
 /// The same for one file, whose folder is not made for it.
 void try_output(const std::filesystem::path& file);
 
+/// Throws InputError when a folder, a device or the like stands under the name of a file that tunica keeps in a folder
+/// of results: reading it fails in as many ways as there are libraries.
+void refuse_other_than_file(const std::filesystem::path& file);
+
 }  // namespace tunica::files

@@ -4,10 +4,13 @@
 
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
+#include "tunica/files/outputs.hpp"
 
 namespace tunica::files {
 
@@ -40,6 +43,7 @@ std::vector<SeriesEntry> read_pvd(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(path.string(), what, "give another results directory, or move this file away");
   };
+  refuse_other_than_file(path);
   std::ifstream file(path);
   if (!file) refuse("cannot be read");
   bool complete = false;
@@ -49,8 +53,9 @@ std::vector<SeriesEntry> read_pvd(const std::filesystem::path& path) {
     SeriesEntry entry{0, attribute(line, "file")};
     const auto time = attribute(line, "timestep");
     const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), entry.time);
-    if (entry.file.empty() || time.empty() || error != std::errc() || end != time.data() + time.size())
-      refuse("is not a series that can be continued: " + line);
+    if (entry.file.empty() || time.empty() || error != std::errc() || end != time.data() + time.size() ||
+        !std::isfinite(entry.time))
+      refuse("is not a series that can be continued: " + text::printable(line));
     series.push_back(std::move(entry));
   }
   if (!complete) refuse("is not a complete .pvd file");

@@ -1,6 +1,10 @@
 #include "tunica/mesh/generate.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tunica/base/error.hpp"
@@ -214,12 +218,32 @@ MeshData box(int nx, int ny, int nz, const Vec3<double>& lengths, RegionKind kin
   return mesh;
 }
 
+std::string objection_to_counts(const TubeSizes& z) {
+  const int core = z.cells_around / 4;
+  const double around = z.cells_around, side = core, lumen = (side + 1) * (side + 1) + around * z.cells_radial,
+               wall = z.wall_thickness > 0 ? around * (z.cells_through_wall + 1.0) : 0,
+               nodes = (lumen + wall) * (z.cells_along + 1.0);
+  constexpr double unknowns = 4;  // of a node
+  if (unknowns * nodes > std::numeric_limits<std::int32_t>::max())
+    return fmt::format("the mesh would have {:.3g} nodes, at most {:.3g} are possible", nodes,
+                       std::numeric_limits<std::int32_t>::max() / unknowns);
+  // Six tetrahedra for each node, and nothing else: the least that the rank needs which makes the mesh.
+  const double needed = nodes * (sizeof(Vec3<double>) + 6 * sizeof(std::array<Index, 4>));
+  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (memory > 0 && needed > memory)
+    return fmt::format("the mesh would have {:.3g} nodes and need {:.3g} GB, the memory of this machine is {:.3g} GB",
+                       nodes, needed / 1e9, memory / 1e9);
+  return {};
+}
+
 MeshData tube(const TubeSizes& z) {
   require(z.radius > 0 && z.length > 0, "tube", "radius and length must be positive");
   require(z.wall_thickness >= 0, "tube", "the wall thickness must not be negative");
   require(z.cells_around >= 4 && z.cells_around % 4 == 0, "tube", "cells_around must be a positive multiple of 4");
   require(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_through_wall >= 1, "tube",
           "the numbers of cells must be at least 1");
+  const auto objection = objection_to_counts(z);
+  require(objection.empty(), "tube", objection.c_str());
   MeshData mesh;
   const auto lumen = butterfly(z.radius, z.cells_around / 4, z.cells_radial);
   extrude(mesh, lumen, z.length, z.cells_along, "lumen", RegionKind::lumen, "lumen_inlet", "lumen_outlet");

@@ -21,6 +21,10 @@ struct TubeSizes {
   int cells_through_wall = 2;  ///< >= 1, not used without a wall
 };
 
+/// Why a tube of so many cells cannot be computed: more unknowns than 32-bit numbers, which those of PETSc are, or a
+/// mesh that does not fit into the memory of this machine. Empty when it can. Counts >= 1.
+std::string objection_to_counts(const TubeSizes& sizes);
+
 /// Lumen ("lumen": faces lumen_inlet, lumen_outlet, lumen_wall) from a butterfly grid, and unless wall_thickness is 0
 /// a coaxial wall ("wall": wall_inlet, wall_outlet, wall_inner, wall_outer) whose inner nodes are twins of lumen_wall.
 /// The circles are polygons with `cells_around` corners on them. InputError for sizes out of range.

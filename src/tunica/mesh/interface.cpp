@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/point_locator.hpp"
 
@@ -73,10 +74,13 @@ LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
 
 template <class Named>
 void require_unique(const std::vector<Named>& items, const char* what, std::vector<Problem>& problems) {
-  std::set<std::string> seen;
+  std::map<std::string, std::string> seen;  // names of files, which are one on some systems
   for (const auto& item : items)
-    if (!seen.insert(item.name).second)
-      problems.push_back({fmt::format("{} {}", what, item.name), "the name appears twice",
+    if (const auto [same, is_new] = seen.emplace(text::lower(item.name), item.name); !is_new)
+      problems.push_back({fmt::format("{} {}", what, item.name),
+                          same->second == item.name
+                              ? "the name appears twice"
+                              : fmt::format("the name differs from {} in the case of letters only", same->second),
                           fmt::format("rename one {}, names must be unique over all meshes of a case", what)});
 }
 

@@ -35,7 +35,7 @@ struct Piece {
 class Check {
  public:
   Check(std::string_view text, const std::string& where, const std::string& kind,
-        const std::vector<std::string>& wanted)
+        const std::optional<std::vector<std::string>>& wanted)
       : text_(text), where_(where), kind_(kind), wanted_(wanted), tags_(text, where_) {}
 
   /// Returns the places of the names of tags that VTK is not to find.
@@ -170,7 +170,7 @@ class Check {
     check_names(piece);
     for (const auto& array : piece.arrays) {
       const std::string name(array.tag.attribute("Name"));
-      if (std::find(wanted_.begin(), wanted_.end(), name) == wanted_.end()) continue;
+      if (wanted_ && std::find(wanted_->begin(), wanted_->end(), name) == wanted_->end()) continue;
       if (array.section == "PointData") check(array, points * components(array));
       if (array.section == "CellData") check(array, cells * components(array));
     }
@@ -265,7 +265,7 @@ class Check {
 
   std::string_view text_;
   std::string where_, kind_;
-  const std::vector<std::string>& wanted_;
+  const std::optional<std::vector<std::string>>& wanted_;
   XmlTags tags_;
   VtkEncoding encoding_;
   std::vector<Piece> pieces_;
@@ -280,7 +280,7 @@ class Check {
 }  // namespace
 
 std::string check_vtk_file(const std::filesystem::path& path, const std::string& kind,
-                           const std::vector<std::string>& wanted) {
+                           const std::optional<std::vector<std::string>>& wanted) {
   std::error_code error;
   std::ifstream stream(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(path, error) || !stream)

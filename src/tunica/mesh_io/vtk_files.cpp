@@ -127,14 +127,20 @@ VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, 
 
 }  // namespace
 
-VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields) {
+VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields,
+                         const std::vector<std::string>& point_fields) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  update(reader.Get(), "UnstructuredGrid", fields, path);
+  auto wanted = fields;
+  wanted.insert(wanted.end(), point_fields.begin(), point_fields.end());
+  update(reader.Get(), "UnstructuredGrid", wanted, path);
   vtkUnstructuredGrid* grid = reader->GetOutput();
   VtkCells cells = arrays(
       grid, grid->GetCells(), [&](std::int64_t c, vtkIdType) { return grid->GetCellType(c); }, path);
   for (const auto& name : fields)
     cells.fields.push_back(field_of(grid->GetCellData(), reader->GetCellDataArraySelection(), "cell", name, path));
+  for (const auto& name : point_fields)
+    cells.point_fields.push_back(
+        field_of(grid->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path));
   return cells;
 }
 

@@ -1,7 +1,9 @@
 #include "tunica/parallel/petsc.hpp"
 
 #include <fmt/format.h>
+#include <stdio_ext.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -34,6 +36,9 @@ Session::Session(const std::vector<std::string>& options)
 }
 
 Session::~Session() {
+  // PETSc flushes the standard output at its end, and prints a trace where that fails; what cannot be written (a full
+  // disk) is dropped before it. The stream keeps the error for those who look at the end of the program.
+  if (std::fflush(stdout) != 0) __fpurge(stdout);
   PetscPopErrorHandler();
   PetscFinalize();
 }

@@ -82,7 +82,9 @@ void add_figures(std::vector<Line>& lines, const json& post, std::size_t law, st
 std::vector<Line> read_figures(const Chain& chain, const std::vector<std::string>& names) {
   std::vector<Line> lines;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    std::ifstream stream(chain.output / "compare" / names[k] / "post/post.json");
+    const fs::path file = chain.output / "compare" / names[k] / "post/post.json";
+    files::refuse_other_than_file(file);
+    std::ifstream stream(file);
     const json post = json::parse(stream, nullptr, false);
     if (post.is_discarded())
       throw SolverError(fmt::format("the figures of {} do not read; do its stage `post` anew", names[k]));

@@ -8,6 +8,7 @@
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/time_stamp.hpp"
 
 namespace tunica::pipeline {
@@ -22,6 +23,7 @@ constexpr const char* record_file = "stage.json";
 }  // namespace
 
 std::optional<Record> read_record(const fs::path& folder) {
+  files::refuse_other_than_file(folder / record_file);
   std::ifstream stream(folder / record_file);
   if (!stream) return std::nullopt;
   try {

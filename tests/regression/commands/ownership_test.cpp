@@ -179,10 +179,41 @@ TEST_F(Ownership, NamesThatCannotBeWrittenAreFoundBeforeTheWork) {
   }
 }
 
+TEST_F(Ownership, FoldersInPlaceOfFilesAreNamed) {
+  write_case("case.yaml", 2);
+  for (const char* file : {"manifest.json", ".tunica.lock"}) {
+    fs::remove_all(folder_ / "out");
+    fs::create_directories(folder_ / "out" / file);
+    for (const char* command : {"run", "check"}) {
+      if (std::string(command) == "check" && *file == '.') continue;  // writes nothing
+      EXPECT_EQ(tunica(std::string(command) + " case.yaml"), 2) << printed();
+      expect_printed(std::string("out/") + file + ": is a folder, though tunica keeps a file of that name");
+    }
+  }
+  fs::remove_all(folder_ / "out");
+  write_case("chain.yaml", 2, "post: {}\n");
+  fs::create_directories(folder_ / "out/run/stage.json");
+  EXPECT_EQ(tunica("run chain.yaml"), 2) << printed();
+  expect_printed("out/run/stage.json: is a folder");
+}
+
+TEST_F(Ownership, EmptyNamesOfFoldersAreRefused) {
+  write_case("case.yaml", 2);
+  for (const char* command : {"run case.yaml -o ''", "post case.yaml --results ''", "post case.yaml -o ''",
+                              "prestress case.yaml -o ''", "tune case.yaml -o ''", "mesh case.yaml -o ''"}) {
+    EXPECT_EQ(shell(std::string("$T ") + command), 2) << command << "\n" << printed();
+    expect_printed("the name is empty");
+  }
+}
+
 TEST_F(Ownership, TextThatIsCutOffIsNoSuccess) {
   EXPECT_EQ(shell("$T schema > /dev/full"), 3);
   expect_printed("the standard output was cut off: No space left on device");
   EXPECT_EQ(shell("$T schema | head -1"), 0);
+  write_case("case.yaml", 2);
+  EXPECT_EQ(shell("$T check case.yaml > /dev/full"), 3);  // here PETSc comes to its end first
+  expect_printed("the standard output was cut off: No space left on device");
+  EXPECT_EQ(printed().find("PETSC"), std::string::npos) << printed();
   write("faces.csv", "time [s],a\n0,1\n1,2\n");
   EXPECT_EQ(shell("ln -s /dev/full a.svg; $T plot faces.csv a -x 'time [s]' -o a.svg"), 3);
   expect_printed("a.svg: No space left on device");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "shared_folder.hpp"
 #include "small_vessels.hpp"
@@ -190,6 +191,63 @@ TEST_F(FieldSeriesTest, ResultsOfAnotherMeshAreRefused) {
               FieldSeries(flow_in_two_lumens(), other, folder_.path()).read(0);
             }).find("elements, the mesh has"),
             std::string::npos);
+}
+
+/// Puts a number of eight bytes into the values of an array of a file that is not compressed.
+void put_number(const std::filesystem::path& path, const std::string& array, std::size_t at, std::int64_t number) {
+  auto text = test::slurp(path);
+  const auto tag = text.find("Name=\"" + array + "\"");
+  const auto offset = text.find("offset=\"", tag) + 8;
+  const auto data = text.find('_', text.find("<AppendedData")) + 1 + std::stoul(text.substr(offset));
+  std::memcpy(&text[data + 8 + 8 * at], &number, sizeof number);
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+TEST_F(FieldSeriesTest, DamagedPiecesAreRefused) {
+  const auto piece = folder_.path() / "lumen_000000_0.vtu";
+  for (const auto& [array, at, number] : {std::tuple{"connectivity", 17, std::int64_t{1} << 48},
+                                          {"connectivity", 3, std::int64_t{-1}},
+                                          {"connectivity", 0, std::int64_t{100000}},
+                                          {"offsets", 2, std::int64_t{1} << 50},
+                                          {"offsets", 4, std::int64_t{-8}}}) {
+    write({0});
+    spoil(
+        [&, name = array, at = at, number = number] { put_number(piece, name, static_cast<std::size_t>(at), number); });
+    const auto text = refusal(flow_in_two_lumens());
+    EXPECT_NE(text.find("lumen_000000_0.vtu"), std::string::npos) << array << ": " << text;
+    EXPECT_NE(text.find("run the case again"), std::string::npos) << text;
+  }
+}
+
+TEST_F(FieldSeriesTest, ImpossibleNumbersOfHeadsAreRefused) {
+  const auto damaged = [&](const char* file, const std::string& was, const std::string& is) {
+    write({0});
+    spoil([&] {
+      const auto path = folder_.path() / file;
+      auto text = test::slurp(path);
+      const auto at = text.find(was);
+      ASSERT_NE(at, std::string::npos) << was;
+      std::ofstream(path, std::ios::binary) << text.replace(at, was.size(), is);
+    });
+    return refusal(flow_in_two_lumens());
+  };
+  const std::string components = "NumberOfComponents=\"3\"", many = "NumberOfComponents=\"99999999999\"";
+  for (const char* file : {"lumen_000000.pvtu", "lumen_000000_0.vtu"}) {
+    const auto text = damaged(file, components, many);
+    EXPECT_NE(text.find(file), std::string::npos) << text;
+    EXPECT_NE(text.find("99999999999"), std::string::npos) << text;
+  }
+  const auto expect = [&](const std::string& text, const char* what) {
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  };
+  const char* piece = "lumen_000000_0.vtu";
+  expect(damaged(piece, "NumberOfPoints=\"", "NumberOfPoints=\"9999"), piece);
+  expect(damaged(piece, "Name=\"pressure", "Name=\"pre\x01sure"), piece);
+  expect(damaged(piece, components, "NumberOfComponents=\"1\""), "does not have 3 components");
+  const char* head = "lumen_000000.pvtu";
+  expect(damaged(head, "pressure [mmHg]", "pressure [cm]"), "no numeric point array called pressure [cm]");
+  expect(damaged(head, "_0.vtu", "_9.vtu"), "lumen_000000_9.vtu");
+  expect(damaged(head, "</VTKFile>", ""), "the file ends before </VTKFile>");
 }
 
 TEST_F(FieldSeriesTest, SaysWhatIsMissing) {

@@ -8,6 +8,7 @@
 namespace tunica::artifacts {
 namespace {
 
+namespace fs = std::filesystem;
 using test::message_of;
 using test::SharedFolder;
 using test::slurp;
@@ -73,8 +74,22 @@ TEST(Histories, BreaksAreFoundInATableThatIsRead) {
   EXPECT_EQ(breaks[2].what, "the line of step 7 is missing");
 }
 
+TEST(CsvTable, ATableSavedWithOtherLineEndsIsContinued) {
+  const SharedFolder folder(MPI_COMM_SELF);
+  const auto file = folder.write("t.csv", "step,a\r\n1,10\r\n2,20\r\n3,30\r\n");
+  const CsvTable table(file, {"a"}, 2);
+  EXPECT_TRUE(table.damage().empty());
+  EXPECT_EQ(slurp(file), "step,a\n1,10\n2,20\n");
+}
+
 TEST(CsvTable, RefusesToContinueAnotherTable) {
   const SharedFolder folder(MPI_COMM_SELF);
+  const auto damaged = folder.write("d.csv", std::string("st\x1b[2Jep\0\xff,a\n1,10\n", 17));
+  EXPECT_NE(message_of<InputError>([&] { CsvTable(damaged, {"a"}, 1); }).find("`st\\x1b[2Jep\\x00\\xff,a`"),
+            std::string::npos);
+  fs::create_directories(folder.path() / "f.csv");
+  EXPECT_NE(message_of<InputError>([&] { CsvTable(folder.path() / "f.csv", {"a"}, 1); }).find("is a folder"),
+            std::string::npos);
   const auto file = folder.write("t.csv", "step,a\n1,10\n");
   EXPECT_NE(message_of<InputError>([&] { CsvTable(file, {"b"}, 1); }).find("has the columns `step,a`"),
             std::string::npos);

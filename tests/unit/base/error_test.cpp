@@ -16,6 +16,13 @@ TEST(Errors, MessageNamesEveryPlaceFindingAndRemedy) {
   EXPECT_EQ(InputError("here", "bad", "mend").problems().front().remedy, "mend");
 }
 
+TEST(Errors, QuotedBytesOfFilesGiveNoOrdersToATerminal) {
+  const InputError error("a.pvd", std::string("is no number: \x1b[2J\0\r\xff ä", 24), "give\n\tanother");
+  EXPECT_STREQ(
+      error.what(),
+      "1 problem in the input:\n  a.pvd: is no number: \\x1b[2J\\x00\\x0d\\xff ä\n    remedy: give\n\tanother");
+}
+
 TEST(Errors, KindsAreToldApart) {
   EXPECT_THROW(throw SolverError("stage flow, t = 1 s: norm 2"), std::runtime_error);
   EXPECT_THROW(throw InputError("a", "b", "c"), InputError);

@@ -22,6 +22,9 @@ TEST(Text, Utf8AsItsStandardHasIt) {
 
 TEST(Text, PrintableInMessages) {
   EXPECT_EQ(text::printable("M\xFCller\n\x01ü"), "M\\xfcller\\x0a\\x01ü");
+  EXPECT_EQ(text::printable("a\xC2\x9B"
+                            "2Jb"),
+            "a\\xc2\\x9b2Jb");
   EXPECT_EQ(text::printable("abcdef", 3), "abc...");
 }
 

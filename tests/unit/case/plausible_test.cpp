@@ -73,6 +73,23 @@ TEST_F(Plausible, VelocityAndTractionByTable) {
              "the traction of the table reaches 3000 mmHg");
 }
 
+TEST_F(Plausible, ConstantsAndStepsWithTheirScale) {
+  expect_one(warnings("{flow: {step: {value: 5 L/s}}}"), "`5 L/s` = 0.005 m^3/s is unusual");
+  expect_one(warnings("{pressure: {step: {value: 16 MPa}}}"), "`16 MPa`", "would be usual");
+  expect_one(warnings("{flow: {value: 1 L/s, scale: 5}}"), "the flow reaches 5000 ml/s with its scale");
+  expect_one(warnings("{flow: {step: {value: -1 L/s}, scale: -5}}"), "the flow reaches 5000 ml/s with its scale");
+  expect_one(warnings("{pressure: {value: 100 mmHg, scale: 133}}"), "the pressure reaches 1.33e+04 mmHg");
+  expect_one(warnings("{pressure: {step: {value: 16 MPa}, scale: 3}}"), "is unusual");  // once, as it was typed
+  expect_one(warnings("{velocity: {value: \"[0, 0, 1] m/s\", waveform: {step: {value: 30}}}}"),
+             "the velocity reaches 30 m/s with its waveform");
+  expect_one(warnings("{traction: {value: \"[0, 0, 100] mmHg\", waveform: {value: 1, scale: 30}}}"),
+             "the traction reaches 3000 mmHg");
+  expect_one(warnings("{velocity: {value: \"[0, 0, 30] m/s\", waveform: {step: {value: 3}}}}"), "is unusual");
+  for (const char* usual : {"{flow: {value: 60 L/min, scale: 1}}", "{flow: {step: {value: 100 ml/s}, scale: 2}}",
+                            "{pressure: {value: 400 mmHg}}", "{pressure: {value: 100 mmHg, scale: 0}}"})
+    EXPECT_TRUE(warnings(usual).empty()) << usual;
+}
+
 TEST_F(Plausible, PeriodOfATable) {
   write_wave("q.csv", 10, 100, 780);
   expect_one(warnings(table("ml/s")), "period of the table is 780 s; 0.2 s to 3 s is usual", "780 ms");
@@ -117,6 +134,12 @@ TEST_F(Plausible, ResistancesThatNoHeartCouldOvercome) {
   expect_one(
       warnings("{flow: 20 ml/s}", "{rcr: {proximal: 1e7 Pa s/m^3, capacitance: 5e-8 m^3/Pa, distal: 1e9 Pa s/m^3}}"),
       "time constant (distal x capacitance) of 50 s");
+  for (const char* limit : {"1e12 Pa s/m^3", "1e7 dyn s/cm^5", "9.9e11 Pa s/m^3"}) {  // none is beyond it by itself
+    const std::string rest = ", capacitance: 1e-8 m^3/Pa, distal: 1.2e8 Pa s/m^3}}";
+    expect_one(warnings("{flow: 50 ml/s}", std::string("{rcr: {proximal: ") + limit + rest),
+               "needs a mean pressure of");
+    expect_one(warnings("{flow: 50 ml/s}", std::string("{resistance: ") + limit + "}"), "needs a mean pressure of");
+  }
   EXPECT_TRUE(
       warnings("{flow: 20 ml/s}", "{rcr: {proximal: 1e7 Pa s/m^3, capacitance: 1e-9 m^3/Pa, distal: 1e9 Pa s/m^3}}")
           .empty());

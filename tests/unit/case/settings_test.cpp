@@ -128,6 +128,11 @@ TEST(FibresCase, ItsPartsFitTheMesh) {
       "  interface: {lumen: lumen_wall, wall: wall_inner}\n";
   const std::string angle = "inlet: [wall_inlet]\nmean_angle: 40 deg\n";
   const auto c = parse_fibres_case(joined + angle + "regions: {flap: {mean_angle: -90 deg}}\n", "fibres.yaml");
+  EXPECT_NE(message_of<InputError>([&] {
+              const char* two = "regions: {flap: {mean_angle: -90 deg}, Flap: {mean_angle: 0 deg}}\n";
+              parse_fibres_case(joined + angle + two, "fibres.yaml");
+            }).find("in the case of letters only"),
+            std::string::npos);
   EXPECT_EQ(c.inner_faces(), (std::vector<std::string>{"wall_inner"}));
   EXPECT_NEAR(c.mean_angle, 40 * M_PI / 180, 1e-15);
   EXPECT_NEAR(c.regions.at("flap").mean_angle, -M_PI / 2, 1e-15);

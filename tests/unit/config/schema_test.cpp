@@ -271,6 +271,49 @@ TEST(Schema, PathsAreRelativeToTheCaseFileAndMustExist) {
   EXPECT_THROW(parse_file(Foam::schema(), folder / "case.yaml"), InputError);
 }
 
+TEST(Schema, SaysWhatStandsUnderANameThatIsNoFile) {
+  namespace fs = std::filesystem;
+  const auto folder = fs::temp_directory_path() / "tunica_schema_kinds_test";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "d.csv");
+  fs::create_symlink("loop.csv", folder / "loop.csv");
+  fs::create_symlink("gone.csv", folder / "broken.csv");
+  const auto problem = [&](const std::string& name) {
+    return problems_of("density: 1 g/cm^3\ntable: " + name + "\n", {.name = "case.yaml", .folder = folder}).at(0);
+  };
+  EXPECT_EQ(problem("d.csv").what, "`d.csv` is a folder, a file is due");
+  EXPECT_EQ(problem("d.csv").remedy, "name a file");
+  EXPECT_EQ(problem("/dev/null").what, "`/dev/null` is a device, a pipe or a socket, a file is due");
+  EXPECT_EQ(problem("loop.csv").what, "`loop.csv` is a link that leads back to itself, a file is due");
+  EXPECT_EQ(problem("broken.csv").what, "`broken.csv` is a link to gone.csv, which is not there, a file is due");
+  fs::remove_all(folder);
+}
+
+TEST(Schema, EmptyNamesOfFilesAndFoldersAreRefused) {
+  for (const Origin& origin :
+       {Origin{.name = "case.yaml", .folder = ""}, Origin{.name = "case.yaml", .folder = "/tmp"}})
+    for (const char* key : {"table", "results"}) {
+      const auto problems = problems_of("density: 1 g/cm^3\n" + std::string(key) + ": \"\"\n", origin);
+      ASSERT_EQ(problems.size(), 1u);
+      EXPECT_EQ(problems[0].where, std::string(key) + " (case.yaml:2)");
+      EXPECT_NE(problems[0].what.find("is empty; a name is due"), std::string::npos) << problems[0].what;
+      EXPECT_NE(problems[0].remedy.find("write a name"), std::string::npos) << problems[0].remedy;
+    }
+}
+
+TEST(Schema, LineEndsOfAnySystem) {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    const std::string e = end;
+    const Foam read = parse_text(Foam::schema(), "# a foam" + e + "density: 1 g/cm^3" + e + "label: |" + e + "  a" + e +
+                                                     "  b" + e + "skin: 2 mm" + e)
+                          .value;
+    EXPECT_DOUBLE_EQ(read.density, 1000);
+    EXPECT_EQ(read.label, "a\nb\n");
+    const auto problems = problems_of("density: 1 g/cm^3" + e + e + "lable: a" + e);
+    EXPECT_EQ(problems.at(0).where, "lable (case.yaml:3)");
+  }
+}
+
 TEST(Schema, SyntaxErrorsNameLineAndColumn) {
   const auto problems = problems_of("density: 1 g/cm^3\nlaw: {soft: [}\n", {.name = "try.yaml"});
   ASSERT_EQ(problems.size(), 1u);

@@ -36,7 +36,7 @@ class Picture : public testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   /// The cube [0, 2]^3 as eight hexahedra with pressure = x + `shift` and displacement = (0, 0, 2).
-  std::string write_cube(const std::string& name, double shift = 0.0) const {
+  std::string write_cube(const std::string& name, double shift = 0.0, bool ascii = false) const {
     vtkNew<vtkPoints> points;
     vtkNew<vtkDoubleArray> pressure, displacement;
     pressure->SetName("pressure");
@@ -64,8 +64,18 @@ class Picture : public testing::Test {
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
     writer->SetFileName(file(name).c_str());
     writer->SetInputData(grid);
+    if (ascii) writer->SetDataModeToAscii();
     writer->Write();
     return file(name);
+  }
+  /// What refuses a picture; empty when nothing does.
+  static std::string message(const PictureOptions& options) {
+    try {
+      render(options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
   }
 
   /// Looks at the cube from the front: x to the right, z up.
@@ -202,6 +212,42 @@ TEST_F(Picture, DrawsLinesAlongVectorsAndShowsAFocus) {
   EXPECT_FALSE(is_white(row(0.46)[40])) << "half the cube fills the picture";
   options.focus->radius = 0;
   EXPECT_THROW(render(options), InputError);
+}
+
+TEST_F(Picture, DamagedFilesAreRefused) {
+  const auto spoiled = [&](const std::string& name, const std::string& was, const std::string& is) {
+    std::ifstream stream(write_cube(name, 0, true));
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto at = text.find(was);
+    EXPECT_NE(at, std::string::npos) << was << " in " << text;
+    if (at != std::string::npos) text.replace(at, was.size(), is);
+    std::ofstream(file(name)) << text;
+    return message(front(file(name)));
+  };
+  const auto expect = [](const std::string& text, const std::string& what) {
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  };
+  EXPECT_EQ(spoiled("a.vtu", "VTKFile", "VTKFile"), "");
+  expect(spoiled("a.vtu", "0 1 4 3 9 10", "0 1 4 3 9 999999"), "a.vtu: a cell names point 999999");
+  expect(spoiled("a.vtu", "0 1 4 3 9 10", "0 1 4 3 9 -2"), "a.vtu: a cell names point -2");
+  expect(spoiled("a.vtu", "8 16 24", "8 160 24"), "the \"offsets\" array is not monotonically increasing");
+  expect(spoiled("a.vtu", "12 12 12", "12 25 12"), "a.vtu: a cell of type 25 has 8 points");
+  expect(spoiled("a.vtu", "12 12 12", "12 71 12"), "a.vtu: cells of type 71 are not drawn");
+  expect(spoiled("a.vtu", "NumberOfComponents=\"3\"", "NumberOfComponents=\"99999999999\""), "a.vtu");
+  write_cube("piece.vtu");
+  const auto pieces = [&](const std::string& components) {
+    std::ofstream(file("a.pvtu")) << "<VTKFile type=\"PUnstructuredGrid\">\n<PUnstructuredGrid>\n<PPointData>\n"
+                                     "<PDataArray type=\"Float64\" Name=\"pressure\" NumberOfComponents=\""
+                                  << components << "\"/>\n</PPointData>\n<Piece Source=\"piece.vtu\"/>\n"
+                                  << "</PUnstructuredGrid>\n</VTKFile>\n";
+    return message(front(file("a.pvtu")));
+  };
+  EXPECT_EQ(pieces("1"), "");
+  expect(pieces("99999999999"), "a.pvtu:4");
+  std::ofstream(file("piece.vtu")) << "<VTKFile";
+  expect(pieces("1"), "piece.vtu");
+  std::ofstream(file("a.vti")) << "";
+  expect(message(front(file("a.vti"))), "give .vtu, .pvtu, .vtp, .pvtp or .pvd files");
 }
 
 TEST_F(Picture, NamesTheArraysThatExist) {

@@ -91,6 +91,13 @@ TEST_F(Files, SeriesThatAreCutOffOrChangedAreRefused) {
   EXPECT_NE(refusal(text.substr(0, text.size() - 12)).find("not a complete .pvd file"), std::string::npos);
   text.replace(text.find("0.5"), 3, "0,5");
   EXPECT_NE(refusal(text).find("not a series that can be continued"), std::string::npos);
+  text.replace(text.find("0,5"), 3, "nan");
+  EXPECT_NE(refusal(text).find("not a series that can be continued"), std::string::npos);
+  text.replace(text.find("nan"), 3, std::string("0\0\x1b", 3));  // nothing that a terminal would take for an order
+  EXPECT_NE(refusal(text).find("timestep=\"0\\x00\\x1b\""), std::string::npos) << refusal(text);
+  fs::create_directories(folder_.path() / "b.pvd");
+  EXPECT_NE(message_of<InputError>([&] { read_pvd(folder_.path() / "b.pvd"); }).find("b.pvd: is a folder"),
+            std::string::npos);
 }
 
 TEST_F(Files, AFailedWriteLeavesTheOldFileAndNoOther) {

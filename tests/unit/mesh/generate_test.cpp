@@ -55,6 +55,24 @@ TEST(Tube, IsSound) {
   EXPECT_TRUE(lumen.twins.empty());
 }
 
+TEST(Tube, CountsWhoseProductIsTooLargeAreRefusedBeforeAnythingIsMade) {
+  auto large = sizes(1);
+  EXPECT_EQ(objection_to_counts(large), "");
+  large.cells_around = large.cells_radial = 10000;
+  large.cells_along = 4;
+  EXPECT_NE(objection_to_counts(large).find("5.31e+08 nodes"), std::string::npos) << objection_to_counts(large);
+  large.cells_along = 100000;
+  large.cells_through_wall = 1000;
+  EXPECT_NE(objection_to_counts(large).find("at most 5.37e+08"), std::string::npos) << objection_to_counts(large);
+  EXPECT_THROW(tube(large), InputError);
+  // As many nodes as are said.
+  for (const double thickness : {0.0, 0.002}) {
+    auto s = sizes(1);
+    s.wall_thickness = thickness;
+    EXPECT_EQ(tube(s).points.size(), thickness > 0 ? 4u * (16 + 24 + 24) : 4u * (16 + 24));
+  }
+}
+
 TEST(Tube, VolumesAndAreasConvergeAtSecondOrder) {
   const double R = 0.01, L = 0.03, H = 0.002;
   const auto errors = [&](int r) {

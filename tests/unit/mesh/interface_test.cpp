@@ -84,6 +84,11 @@ TEST(Join, RefusesWrongNames) {
   auto b = boxes();
   b.wall.data.faces[0].name = "lumen_x_max";
   EXPECT_TRUE(contains(refusal(b), "face lumen_x_max: the name appears twice"));
+  b.wall.data.faces[0].name = "Lumen_x_Max";
+  EXPECT_TRUE(contains(refusal(b), "face Lumen_x_Max: the name differs from lumen_x_max in the case of letters only"));
+  b = boxes();
+  b.wall.data.regions[0].name = "Lumen";
+  EXPECT_TRUE(contains(refusal(b), "region Lumen: the name differs from lumen in the case of letters only"));
   b = boxes();
   b.wall.data.regions[0].kind = RegionKind::lumen;
   EXPECT_TRUE(contains(refusal(b), "2 lumen regions, at most 1 is possible"));

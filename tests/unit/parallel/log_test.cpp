@@ -25,6 +25,7 @@ class SharedFile {
     path = name;
   }
   ~SharedFile() {
+    MPI_Barrier(MPI_COMM_WORLD);  // others may be reading it
     if (rank(MPI_COMM_WORLD) == 0) std::filesystem::remove(path);
   }
   std::string text() const {

@@ -82,6 +82,7 @@ namespace report {
 namespace {
 
 json read_json(const fs::path& file) {
+  files::refuse_other_than_file(file);
   std::ifstream stream(file);
   if (file.empty() || !stream) return nullptr;
   json read = json::parse(stream, nullptr, false);

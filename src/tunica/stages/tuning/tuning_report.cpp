@@ -11,6 +11,7 @@
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 
 namespace tunica::stages {
@@ -167,6 +168,7 @@ void write_report(const TuningReport& report, const case_file::Case& c) {
 }
 
 std::optional<EarlierTuning> find_tuning(const fs::path& folder) {
+  files::refuse_other_than_file(folder / report_file);
   std::ifstream in(folder / report_file);
   if (!in) return std::nullopt;
   try {
