@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "folders.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "verification/wall/banded_newton.hpp"
 
 namespace tunica::verification {
@@ -158,6 +159,36 @@ TEST(ThickCylinder, MixedElementAndLockingOfTheDisplacementElement) {
     previous = u_error;
   }
   EXPECT_LT(previous, -0.1);  // locked
+}
+
+/// The same inflation with quadratic elements. Their edges are straight, so that what is left is the polygon in place of
+/// the circle: 8 edges for each element through the quarter, whose error falls with the square of their length.
+TEST(ThickCylinder, QuadraticElement) {
+  const double a = 0.012;
+  const Inflated exact = exact_inflation(a);
+  print("thick cylinder, quadratic elements, p %.4f kPa, exact (nu 0.5): u %.4f mm, hoop %.3f kPa\n",
+        exact.pressure / 1e3, 1e3 * (a - A), exact.hoop_inner / 1e3);
+  const auto run = [&](Element element, double nu, int radial) {
+    auto tube = mesh::thick_cylinder(sizes(radial), mesh::Sector::quarter);
+    mesh::add_edge_nodes(tube);
+    const Solution s =
+        inflate({element, mu, nu}, tube, 4, bc::Pressure{bc::WaveformInput{exact.pressure}}, bc::Free{});
+    const double u_error = s.inner_displacement / (a - A) - 1, hoop_error = s.stress.hoop_inner / exact.hoop_inner - 1;
+    print("  %-12s %7.4f    %2d     %.5f    %+7.3f    %.4f        %+7.3f   %.2f  (%d linear iterations in %zu)\n",
+          name(element), nu, radial, 1e3 * s.inner_displacement, 100 * u_error, s.stress.hoop_inner / 1e3,
+          100 * hoop_error, 100 * s.stress.hoop_scatter / exact.hoop_inner, s.last.linear_iterations(),
+          s.last.iterations.size());
+    return std::pair(u_error, hoop_error);
+  };
+  for (const double nu : {0.49, 0.4999}) run(Element::mixed, nu, 2);
+  double previous = 0;
+  for (const int radial : {1, 2, 4}) {
+    const auto [u_error, hoop_error] = run(Element::mixed, 0.5, radial);
+    EXPECT_LT(std::abs(u_error), 0.01);
+    EXPECT_LT(std::abs(hoop_error), 0.01);
+    previous = u_error;
+  }
+  EXPECT_LT(std::abs(previous), 1e-3);
 }
 
 /// Lame's solution, at a thousandth of the table's pressure so that strains are small.
