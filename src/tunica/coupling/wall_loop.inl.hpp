@@ -166,9 +166,8 @@ void scatter_row(const wall::quadratic::TangentRow<Pack<W>>& row, int a, const s
 }
 
 template <int W, wall::LawKind kind, bool mixed>
-void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fields,
-                              const WallElementSettings& settings, const wall::Coefficients& coefficients,
-                              const LoopTarget& target) {
+void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
+                              const wall::Coefficients& coefficients, const LoopTarget& target) {
   namespace wq = wall::quadratic;
   constexpr int n = fe::quadratic_nodes;
   const BatchView& batches = group.batches;
@@ -193,10 +192,9 @@ void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fiel
     wq::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {
       const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * n * n * W;
-      wq::tangent<mixed>(state, law, body, coefficients, prestress, r,
-                         [&](int a, const wq::TangentRow<Pack<W>>& row) {
-                           scatter_row<W, mixed>(row, a, slots, batches.split, used, target.blocks);
-                         });
+      wq::tangent<mixed>(state, law, body, coefficients, prestress, r, [&](int a, const wq::TangentRow<Pack<W>>& row) {
+        scatter_row<W, mixed>(row, a, slots, batches.split, used, target.blocks);
+      });
     } else {
       wq::residual<mixed>(state, law, body, coefficients, prestress, r);
     }

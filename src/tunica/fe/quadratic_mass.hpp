@@ -1,4 +1,5 @@
-// Consistent masses of the quadratic tetrahedron and triangle with straight edges, as means of N_a N_b over the element.
+// Consistent masses of the quadratic tetrahedron and triangle with straight edges, as means of N_a N_b over the
+// element.
 #pragma once
 
 #include "tunica/fe/quadratic_tetrahedron.hpp"

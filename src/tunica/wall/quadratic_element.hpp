@@ -28,11 +28,11 @@ inline constexpr int points = 4;
 /// Nodal values of one element, or of a batch of elements; see the linear one.
 template <class T>
 struct ElementState {
-  fe::Gradients<T> reference;     ///< of the barycentric coordinates
-  Mat3<T> axes = identity<T>();   ///< columns: axes of these gradients, or times F0
-  Vec3<T> displacement[nodes];    ///< u at t_{n+alpha_f} [m]
-  Vec3<T> acceleration[nodes];    ///< v_dot at t_{n+alpha_m} [m/s^2]
-  T pressure[fe::nodes];          ///< p of the corners at t_{n+1} [Pa], mixed element only
+  fe::Gradients<T> reference;    ///< of the barycentric coordinates
+  Mat3<T> axes = identity<T>();  ///< columns: axes of these gradients, or times F0
+  Vec3<T> displacement[nodes];   ///< u at t_{n+alpha_f} [m]
+  Vec3<T> acceleration[nodes];   ///< v_dot at t_{n+alpha_m} [m/s^2]
+  T pressure[fe::nodes];         ///< p of the corners at t_{n+1} [Pa], mixed element only
 };
 
 /// Residual of an element: momentum of all nodes [N], constraint of the corners s [m^3].
@@ -46,10 +46,10 @@ struct ElementVector {
 /// alone.
 template <class T>
 struct TangentRow {
-  Mat3<T> motion[nodes];        ///< d momentum / d x
-  Vec3<T> pressure[fe::nodes];  ///< d momentum / d p
-  Vec3<T> constraint[nodes];    ///< d constraint / d x; corners only
-  T compressibility[fe::nodes]; ///< d constraint / d p; corners only
+  Mat3<T> motion[nodes];         ///< d momentum / d x
+  Vec3<T> pressure[fe::nodes];   ///< d momentum / d p
+  Vec3<T> constraint[nodes];     ///< d constraint / d x; corners only
+  T compressibility[fe::nodes];  ///< d constraint / d p; corners only
 };
 
 /// The linear element that stands for this one at a point: same F, the pressure of the point at all corners, no
@@ -152,8 +152,8 @@ template <class T, class L>
 /// The same with the tangent of the motion; kappa = J dpi/dJ.
 template <class T, class L>
 [[gnu::noinline]] void point_tangent(const wall::ElementState<T>& s, const Kinematics<T>& k, const L& law, const T& pi,
-                                     const T& kappa, double du_dx, const std::type_identity_t<Symmetric<T>>* S0, fe::ElementVector<T>& force,
-                                     Mat3<T> (&stiffness)[fe::nodes][fe::nodes]) {
+                                     const T& kappa, double du_dx, const std::type_identity_t<Symmetric<T>>* S0,
+                                     fe::ElementVector<T>& force, Mat3<T> (&stiffness)[fe::nodes][fe::nodes]) {
   fe::ElementMatrix<T> m;
   const Coefficients c{.acceleration = 0.0, .displacement = du_dx, .constraint = 0.0};
   wall::detail::add_momentum(s, k, law, pi, kappa, T(0.0), c, force, m);

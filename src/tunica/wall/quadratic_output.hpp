@@ -28,7 +28,8 @@ inline T present_volume(const ElementState<T>& e) {
 
 /// Stored energy [J], see output.hpp, with that of the prestress S0 [Pa, axes of the gradients], which may be null.
 template <bool mixed, class T, class L>
-inline T strain_energy(const ElementState<T>& e, const L& law, const Body& body, const std::type_identity_t<Symmetric<T>>* S0) {
+inline T strain_energy(const ElementState<T>& e, const L& law, const Body& body,
+                       const std::type_identity_t<Symmetric<T>>* S0) {
   T sum(0.0);
   for (const auto& point : fe::quadratic_four_points) {
     const wall::ElementState<T> s = at_point(e, point);

@@ -85,8 +85,7 @@ inline void add_follower_pressure(const SurfaceState<T>& s, const T& p, double d
     for (int a = 0; a < triangle_nodes; ++a) r.r[a] = r.r[a] + T(point.N[a]) * force;
     if (k == nullptr) continue;
     for (int b = 0; b < triangle_nodes; ++b) {
-      const Vec3<T> w =
-          T(0.5 * point.weight * du_dx) * p * (T(dN.first[b]) * second + T(-dN.second[b]) * first);
+      const Vec3<T> w = T(0.5 * point.weight * du_dx) * p * (T(dN.first[b]) * second + T(-dN.second[b]) * first);
       for (int a = 0; a < triangle_nodes; ++a)
         for (int i = 0; i < 3; ++i) {
           const int j = (i + 1) % 3, l = (i + 2) % 3;  // (d x w)_i = d_j w_l - d_l w_j
