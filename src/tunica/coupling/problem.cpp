@@ -166,8 +166,13 @@ State Problem::initial_state() const {
 }
 
 FieldsView Problem::fields() const {
-  return {reference_position_.data(), position_.data(), velocity_pressure_.data(), acceleration_.data(),
-          mesh_velocity_.data(),      stream_.data(),   displacement_.data()};
+  return {reference_position_.data(),
+          position_.data(),
+          velocity_pressure_.data(),
+          acceleration_.data(),
+          mesh_velocity_.data(),
+          displacement_.data(),
+          stream_.data()};
 }
 
 void Problem::synchronise_twins(State& state) const {
