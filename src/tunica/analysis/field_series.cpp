@@ -14,6 +14,7 @@
 #include "tunica/config/units.hpp"
 #include "tunica/files/csv_file.hpp"
 #include "tunica/files/series_file.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::analysis {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 namespace dimension = config::dimension;
 using mesh::RegionKind;
 
-constexpr int tetrahedron = 10;  // VTK_TETRA
+constexpr int tetrahedron = 10, quadratic_tetrahedron = 24;  // VTK_TETRA, VTK_QUADRATIC_TETRA
 constexpr const char* run_again = "run the case again, with fields written (`output.every`)";
 
 using Place = std::array<float, 3>;
@@ -177,9 +178,16 @@ struct FieldSeries::Implementation {
       for (const auto& x : piece.points)
         for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(x[c]));
       for (std::size_t e = 0; e < piece.types.size(); ++e)
-        if (piece.types[e] != tetrahedron || piece.offsets[e + 1] - piece.offsets[e] != 4)
+        if (piece.types[e] == quadratic_tetrahedron && piece.offsets[e + 1] - piece.offsets[e] == 10) {
+          for (const auto& part : mesh::parts_of_tetrahedron)
+            for (const int a : part)
+              cells.push_back(first + piece.connectivity[static_cast<std::size_t>(piece.offsets[e] + a)]);
+        } else if (piece.types[e] == tetrahedron && piece.offsets[e + 1] - piece.offsets[e] == 4) {
+          for (int a = 0; a < 4; ++a)
+            cells.push_back(first + piece.connectivity[static_cast<std::size_t>(piece.offsets[e] + a)]);
+        } else {
           throw InputError(fields.file.string(), "holds cells that are no tetrahedra", run_again);
-      for (const auto point : piece.connectivity) cells.push_back(first + point);
+        }
     }
     if (places == n.places && cells == n.cells) return;
     n = {};  // not kept where it turns out not to be of this mesh
@@ -286,7 +294,9 @@ struct FieldSeries::Implementation {
         const auto& field = piece.fields[k];
         if (field.values.size() != piece.types.size())
           throw InputError(fields.file.string(), fmt::format("`{}` does not have one component", name), run_again);
-        for (const double value : field.values) to[static_cast<std::size_t>(*element++)] = factor * value;
+        for (std::size_t e = 0; e < field.values.size(); ++e)
+          for (int part = 0; part < (piece.types[e] == quadratic_tetrahedron ? 8 : 1); ++part)
+            to[static_cast<std::size_t>(*element++)] = factor * field.values[e];
       }
     }
   }

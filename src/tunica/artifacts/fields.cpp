@@ -9,6 +9,7 @@
 #include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_element.hpp"
+#include "tunica/fe/quadratic_tetrahedron.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/wall/output.hpp"
 
@@ -60,15 +61,50 @@ void OutputFields::find_wall_triangles(const case_file::Case& c) {
     if (!inside.contains(face.name)) continue;
     for (const auto& triangle : face.triangles) {
       wanted[sorted(triangle)] = wall_triangles_.size();
-      wall_triangles_.push_back({triangle, {}});
+      wall_triangles_.push_back({triangle, {}, {}});
     }
   }
   for (const auto& region : mesh.regions) {
     if (region.kind != RegionKind::lumen) continue;
-    for (const auto& n : region.elements)
+    for (std::size_t e = 0; e < region.elements.size(); ++e) {
+      const auto& n = region.elements[e];
       for (const auto& side : {sorted({n[1], n[2], n[3]}), sorted({n[0], n[2], n[3]}), sorted({n[0], n[1], n[3]}),
                                sorted({n[0], n[1], n[2]})})
-        if (const auto it = wanted.find(side); it != wanted.end()) wall_triangles_[it->second].element = n;
+        if (const auto it = wanted.find(side); it != wanted.end()) {
+          wall_triangles_[it->second].element = n;
+          if (mesh.quadratic) wall_triangles_[it->second].edges = region.edges[e];
+        }
+    }
+  }
+}
+
+// The gradient of a quadratic velocity at the six nodes of a triangle.
+template <class Add>
+void OutputFields::add_at_nodes(const WallTriangle& triangle, const fe::Gradients<double>& shape,
+                                const double* velocity, Add add) const {
+  const auto& corners = triangle.element;
+  const auto on_triangle = [&](std::int32_t corner) {
+    return std::find(triangle.nodes.begin(), triangle.nodes.end(), corner) != triangle.nodes.end();
+  };
+  const auto add_at = [&](std::int32_t node, const std::array<double, 4>& barycentric) {
+    const auto point = fe::quadratic_point(barycentric, 1.0);
+    Mat3<double> gradient{};
+    for (int b = 0; b < fe::quadratic_nodes; ++b)
+      fluid::detail::add_outer(gradient, vector_at(velocity, b < 4 ? corners[b] : triangle.edges[b - 4]),
+                               fe::quadratic_gradient(shape.dN, point, b));
+    add(node, gradient);
+  };
+  for (std::size_t a = 0; a < 4; ++a) {
+    std::array<double, 4> l{};
+    l[a] = 1.0;
+    if (on_triangle(corners[a])) add_at(corners[a], l);
+  }
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto first = static_cast<std::size_t>(fe::edge_ends[e][0]),
+               second = static_cast<std::size_t>(fe::edge_ends[e][1]);
+    std::array<double, 4> l{};
+    l[first] = l[second] = 0.5;
+    if (on_triangle(corners[first]) && on_triangle(corners[second])) add_at(triangle.edges[e], l);
   }
 }
 
@@ -85,19 +121,24 @@ void OutputFields::compute_shear_stress(const State& state) {
     for (int a = 0; a < 4; ++a) x[a] = position(triangle.element[a]);
     for (int a = 0; a < 3; ++a) corners[a] = position(triangle.nodes[a]);
     const auto shape = fe::gradients(x);
+    const Vec3<double> n = fluid::area_vector(corners);
+    const double area = norm(n);
+    const auto add = [&](std::int32_t node, const Mat3<double>& gradient) {
+      const double mu = std::visit([&](const auto& law) { return law.viscosity(fluid::shear_rate(gradient)); },
+                                   problem_.input().fluid->viscosity);
+      // What the flow does to the wall: the opposite of what the wall does to the flow.
+      const Vec3<double> stress = (-1.0) * fluid::wall_shear_traction(gradient, mu, (1.0 / area) * n);
+      weight[node] += area;
+      for (int i = 0; i < 3; ++i) shear_[3 * static_cast<std::size_t>(node) + i] += area * stress[i];
+    };
+    if (mesh.quadratic) {
+      add_at_nodes(triangle, shape, state.velocity_pressure.data(), add);
+      continue;
+    }
     Mat3<double> gradient{};
     for (int a = 0; a < 4; ++a)
       fluid::detail::add_outer(gradient, vector_at(state.velocity_pressure.data(), triangle.element[a]), shape.dN[a]);
-    const double mu = std::visit([&](const auto& law) { return law.viscosity(fluid::shear_rate(gradient)); },
-                                 problem_.input().fluid->viscosity);
-    const Vec3<double> n = fluid::area_vector(corners);
-    const double area = norm(n);
-    // What the flow does to the wall: the opposite of what the wall does to the flow.
-    const Vec3<double> stress = (-1.0) * fluid::wall_shear_traction(gradient, mu, (1.0 / area) * n);
-    for (const auto node : triangle.nodes) {
-      weight[node] += area;
-      for (int i = 0; i < 3; ++i) shear_[3 * static_cast<std::size_t>(node) + i] += area * stress[i];
-    }
+    for (const auto node : triangle.nodes) add(node, gradient);
   }
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node)
     for (int i = 0; i < 3 && weight[node] > 0; ++i) shear_[3 * static_cast<std::size_t>(node) + i] /= weight[node];

@@ -29,9 +29,13 @@ class OutputFields {
   struct WallTriangle {
     std::array<std::int32_t, 3> nodes;
     std::array<std::int32_t, 4> element;
+    std::array<std::int32_t, 6> edges;  ///< of the element; quadratic ones only
   };
   void find_wall_triangles(const case_file::Case& c);
   void compute_shear_stress(const coupling::State& state);
+  template <class Add>
+  void add_at_nodes(const WallTriangle& triangle, const fe::Gradients<double>& shape, const double* velocity,
+                    Add add) const;
   void compute_wall_stress(const coupling::State& state);
 
   const coupling::Problem& problem_;

@@ -362,6 +362,24 @@ void Boundaries::add_quadratic_lumen_load(const Load& load, double value, const 
 void Boundaries::add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
                                     const LoadCoefficients& coefficients, std::span<double> residual,
                                     assembly::BlockMatrix* matrix) const {
+  const Load backflow{.face = load.face, .kind = Load::Kind::lumen_pressure};
+  if (mesh_.quadratic) {
+    const auto& face = mesh_.faces[load.face];
+    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+      const auto nodes = quadratic_nodes(face, k);
+      Vec3<double> x[3], traction[6];
+      gather(fields.position, face.triangles[k], x);
+      for (int a = 0; a < 6; ++a) traction[a] = load.traction(mesh_.points[nodes[a]], t);
+      const double area = factor * fluid::area(x);
+      for (const auto& point : fe::quadratic_seven_points)
+        for (int a = 0; a < 6; ++a)
+          for (int b = 0; b < 6; ++b)
+            for (int i = 0; i < 3; ++i)
+              residual[at(nodes[a]) + i] -= area * point.weight * point.N[a] * point.N[b] * traction[b][i];
+    }
+    add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
+    return;
+  }
   for (const auto& triangle : mesh_.faces[load.face].triangles) {
     Vec3<double> x[3], traction[3];
     gather(fields.position, triangle, x);
@@ -371,7 +389,6 @@ void Boundaries::add_traction_field(const TractionField& load, double t, double 
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += share * (sum[i] + traction[a][i]);
   }
-  const Load backflow{.face = load.face, .kind = Load::Kind::lumen_pressure};
   add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
 }
 

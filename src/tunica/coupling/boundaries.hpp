@@ -36,7 +36,7 @@ struct BoundaryInput {
 
   // Conditions on lumen faces that only code can give, such as exact solutions.
   std::vector<std::pair<std::string, VectorField>> velocity_fields;  ///< face, velocity at t_{n+1} [m/s]
-  /// Face, traction [Pa] on the current face at t_{n+alpha_f}, interpolated linearly between the nodes.
+  /// Face, traction [Pa] on the current face at t_{n+alpha_f}, interpolated between the nodes like the velocity.
   std::vector<std::pair<std::string, VectorField>> traction_fields;
   /// Wall face, pressure [Pa] at its nodes [local node]: follows the deformed face, each triangle takes the mean of its
   /// nodes. Statics multiplies it by its load factor.

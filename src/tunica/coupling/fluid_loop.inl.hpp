@@ -70,7 +70,8 @@ TUNICA_INLINE void scatter_row(const fluid::taylor_hood::TangentRow<Pack<W>>& ro
 template <int W, class Viscosity>
 void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fields,
                                const fluid::Parameters& parameters, const Viscosity& law,
-                               const fluid::taylor_hood::TimeCoefficients& time, const LoopTarget& target) {
+                               const fluid::taylor_hood::TimeCoefficients& time,
+                               const fluid::MotionCoefficients& motion, const LoopTarget& target) {
   namespace th = fluid::taylor_hood;
   constexpr int n = fe::quadratic_nodes;
   const BatchView& batches = group.batches;
@@ -86,9 +87,13 @@ void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fi
     th::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {
       const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * n * n * W;
-      th::tangent(state, time, parameters, law, r, [&](int a, const th::TangentRow<Pack<W>>& row) {
-        scatter_row<W>(row, a, slots, used, target.blocks);
-      });
+      Pack<W> moves[4];
+      if (group.moves != nullptr)
+        for (int a = 0; a < 4; ++a)
+          moves[a] = Pack<W>::load(group.moves + (static_cast<std::ptrdiff_t>(batch) * n + a) * W);
+      th::tangent(
+          state, time, parameters, law, motion, group.moves != nullptr ? &moves : nullptr, r,
+          [&](int a, const th::TangentRow<Pack<W>>& row) { scatter_row<W>(row, a, slots, used, target.blocks); });
     } else {
       th::residual(state, time, parameters, law, r);
     }
@@ -107,7 +112,7 @@ void fluid(const LumenGroupView& group, const FieldsView& fields, const fluid::P
         using Viscosity = std::decay_t<decltype(law)>;
         if (group.batches.quadratic)
           loop_over_quadratic_fluid<W>(group, fields, parameters, law, {time.acceleration, time.velocity, time.speed},
-                                       target);
+                                       motion, target);
         else if (target.blocks == nullptr)
           loop_over_fluid<W, Viscosity, Tangent::none>(group, fields, parameters, law, time, motion, target);
         else if (group.moves == nullptr)

@@ -97,15 +97,16 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
     std::move(groups.begin(), groups.end(), std::back_inserter(lumen_groups_));
   }
   for (const auto& region : mesh.regions) {
-    if (region.kind != mesh::RegionKind::lumen || !mesh.quadratic) continue;
+    if (!mesh.quadratic) break;
     std::vector<char> seen(mesh.nodes(), 0);
     for (std::size_t e = 0; e < region.edges.size(); ++e)
       for (int k = 0; k < 6; ++k) {
         const auto node = region.edges[e][k];
         if (std::exchange(seen[node], 1) == 0)
-          lumen_edges_.push_back(
+          edges_.push_back(
               {node,
-               {region.elements[e][mesh::tetrahedron_edges[k][0]], region.elements[e][mesh::tetrahedron_edges[k][1]]}});
+               {region.elements[e][mesh::tetrahedron_edges[k][0]], region.elements[e][mesh::tetrahedron_edges[k][1]]},
+               region.kind == mesh::RegionKind::lumen});
       }
   }
   negligible_ = negligible_forces();
@@ -166,8 +167,13 @@ State Problem::initial_state() const {
 }
 
 FieldsView Problem::fields() const {
-  return {reference_position_.data(), position_.data(), velocity_pressure_.data(), acceleration_.data(),
-          mesh_velocity_.data(),      stream_.data(),   displacement_.data()};
+  return {reference_position_.data(),
+          position_.data(),
+          velocity_pressure_.data(),
+          acceleration_.data(),
+          mesh_velocity_.data(),
+          displacement_.data(),
+          stream_.data()};
 }
 
 void Problem::synchronise_twins(State& state) const {
@@ -198,10 +204,9 @@ void Problem::evaluate_fields(const State& old_state, const State& next, const I
     }
     velocity_pressure_[at(i) + 3] = next.velocity_pressure[at(i) + 3];
   }
-  for (const auto& edge : lumen_edges_)
-    for (int c = 0; c < 3; ++c)
-      for (auto* field : {&position_, &mesh_velocity_})
-        (*field)[at(edge.node) + c] = 0.5 * ((*field)[at(edge.ends[0]) + c] + (*field)[at(edge.ends[1]) + c]);
+  for (const auto& edge : edges_)
+    for (auto* field : {&position_, &mesh_velocity_})
+      if (edge.lumen) set_to_mean(*field, edge);
 }
 
 // Rates and wall displacements that belong to the velocities of `next`.
@@ -216,6 +221,11 @@ void Problem::follow_velocity(const State& old_state, State& next, const TimeSch
       next.displacement_rate[k] = scheme.displacement_rate(rate_old, scheme.at_alpha_f(v_old, v));
       next.displacement[k] = scheme.new_value(old_state.displacement[k], rate_old, next.displacement_rate[k]);
     }
+}
+
+void Problem::set_to_mean(std::span<double> field, const Edge& edge) const {
+  for (int c = 0; c < 3; ++c)
+    field[at(edge.node) + c] = 0.5 * (field[at(edge.ends[0]) + c] + field[at(edge.ends[1]) + c]);
 }
 
 // Walls have no part in it, and a step that is repeated finds the same.
@@ -242,6 +252,8 @@ int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& sc
     iterations = mesh_motion_->solve(next.displacement, input_.newton.mesh_tolerance);
   else
     prescribe_mesh(next);
+  for (const auto& edge : edges_)
+    if (edge.lumen && !follows_wall_[edge.node]) set_to_mean(next.displacement, edge);
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
     if (!follows_wall_[i])
       for (int c = 0; c < 3; ++c) {
@@ -471,7 +483,10 @@ StepReport Problem::advance(State& state, double dt) {
   ++next.step;
   boundaries_.prescribe(next.time, next.velocity_pressure);
   flow_speed_ = largest_speed(next);
-  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = state.velocity_pressure[k] - state.displacement_rate[k];
+  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = -state.displacement_rate[k];
+  for (const auto& edge : edges_)
+    if (edge.lumen) set_to_mean(stream_, edge);
+  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] += state.velocity_pressure[k];
   follow_velocity(state, next, scheme);
   // Until the first increment the mesh goes on as it moved; the interface is moved by its velocity.
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
@@ -489,8 +504,15 @@ StepReport Problem::advance(State& state, double dt) {
     const double old_flow = state.outlets[k].flow();
     next.outlets[k].commit(dt, old_flow + (outlet_flows_[k] - old_flow) / scheme.alpha_f);
   }
+  interpolate_pressure(next);
   state = std::move(next);
   return report;
+}
+
+// Pressure is linear and lives at the corners: what nodes on edges show of it is for pictures.
+void Problem::interpolate_pressure(State& state) const {
+  auto& p = state.velocity_pressure;
+  for (const auto& edge : edges_) p[at(edge.node) + 3] = 0.5 * (p[at(edge.ends[0]) + 3] + p[at(edge.ends[1]) + 3]);
 }
 
 StepReport Problem::solve_static(State& state, double factor) {
@@ -501,6 +523,7 @@ StepReport Problem::solve_static(State& state, double factor) {
   StepReport report = newton(state, next, instant);
   if (!report.converged) return report;
   last_instant_ = instant;
+  interpolate_pressure(next);
   state = std::move(next);
   return report;
 }

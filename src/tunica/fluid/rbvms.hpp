@@ -31,10 +31,10 @@ struct ElementState {
   Vec3<T> velocity[fe::nodes];       ///< v at t_{n+alpha_f} [m/s]
   Vec3<T> acceleration[fe::nodes];   ///< dv/dt at the moving mesh node, at t_{n+alpha_m} [m/s^2]
   Vec3<T> mesh_velocity[fe::nodes];  ///< v^ at t_{n+alpha_f} [m/s]
-  T pressure[fe::nodes];             ///< p at t_{n+1} [Pa]
+  T pressure[fe::nodes];             ///< p at t_{n+alpha_f} [Pa]
 };
 
-/// Step size, and how the state depends on the unknowns (v_{n+1}, p_{n+1}) of Newton's method.
+/// Step size, and how the state depends on the unknowns (v_{n+1}, p_{n+alpha_f}) of Newton's method.
 struct TimeCoefficients {
   double dt;            ///< step size in tau_M, eq (2.2) [s]; infinity for steady flow
   double acceleration;  ///< d(acceleration)/d(v_{n+1}) [1/s]: alpha_m / (gamma dt) for generalised-alpha

@@ -27,7 +27,7 @@
 #pragma once
 
 #include "tunica/fe/quadratic_tetrahedron.hpp"
-#include "tunica/fluid/rbvms.hpp"
+#include "tunica/fluid/rbvms_shape.hpp"
 
 namespace tunica::fluid::taylor_hood {
 
@@ -102,26 +102,26 @@ TUNICA_INLINE Flow<T> evaluate(const ElementState<T>& s, const TimeCoefficients&
   Flow<T> f;
   const auto shape = fe::gradients(s.position);
   f.volume = shape.volume;
-  f.grad_p = detail::zero_vector<T>();
+  f.grad_p = fluid::detail::zero_vector<T>();
   for (int a = 0; a < 4; ++a) {
     f.g[a] = shape.dN[a];
-    detail::add(f.grad_p, s.pressure[a], f.g[a]);
+    fluid::detail::add(f.grad_p, s.pressure[a], f.g[a]);
   }
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) f.gg[a][b] = dot(f.g[a], f.g[b]);
   // Mean gradient (at the centroid) for the viscosity inside the stabilisation.
-  Mat3<T> mean = detail::zero_matrix<T>();
-  Vec3<T> laplacian = detail::zero_vector<T>(), grad_div = detail::zero_vector<T>();
+  Mat3<T> mean = fluid::detail::zero_matrix<T>();
+  Vec3<T> laplacian = fluid::detail::zero_vector<T>(), grad_div = fluid::detail::zero_vector<T>();
   for (int b = 0; b < nodes; ++b) {
     const int m = fe::gradient_of[b][0], n = fe::gradient_of[b][1];
     if (b < 4) {  // slope 0 at the centroid; second derivatives 4 g (x) g
-      detail::add(laplacian, T(4.0) * f.gg[m][m], s.velocity[b]);
-      detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[m]);
+      fluid::detail::add(laplacian, T(4.0) * f.gg[m][m], s.velocity[b]);
+      fluid::detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[m]);
     } else {
-      detail::add_outer(mean, s.velocity[b], f.g[m] + f.g[n]);
-      detail::add(laplacian, T(8.0) * f.gg[m][n], s.velocity[b]);
-      detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[n]);
-      detail::add(grad_div, T(4.0) * dot(f.g[n], s.velocity[b]), f.g[m]);
+      fluid::detail::add_outer(mean, s.velocity[b], f.g[m] + f.g[n]);
+      fluid::detail::add(laplacian, T(8.0) * f.gg[m][n], s.velocity[b]);
+      fluid::detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[n]);
+      fluid::detail::add(grad_div, T(4.0) * dot(f.g[n], s.velocity[b]), f.g[m]);
     }
   }
   f.mu = law.viscosity(shear_rate(mean));
@@ -143,27 +143,27 @@ TUNICA_INLINE PointFlow<T> at_point(const ElementState<T>& s, const Flow<T>& f, 
   const double rho = parameters.density;
   PointFlow<T> p;
   p.weight = T(point.weight) * f.volume;
-  p.gradient = detail::zero_matrix<T>();
-  p.v = p.b = detail::zero_vector<T>();
-  Vec3<T> rate = detail::zero_vector<T>();
+  p.gradient = fluid::detail::zero_matrix<T>();
+  p.v = p.b = fluid::detail::zero_vector<T>();
+  Vec3<T> rate = fluid::detail::zero_vector<T>();
   for (int b = 0; b < nodes; ++b) {
     p.dN[b] = fe::quadratic_gradient(f.g, point, b);
-    detail::add_outer(p.gradient, s.velocity[b], p.dN[b]);
-    detail::add(p.v, T(point.N[b]), s.velocity[b]);
-    detail::add(p.b, T(point.N[b]), s.stream[b]);
-    detail::add(rate, T(point.N[b]), s.acceleration[b]);
+    fluid::detail::add_outer(p.gradient, s.velocity[b], p.dN[b]);
+    fluid::detail::add(p.v, T(point.N[b]), s.velocity[b]);
+    fluid::detail::add(p.b, T(point.N[b]), s.stream[b]);
+    fluid::detail::add(rate, T(point.N[b]), s.acceleration[b]);
   }
   p.a = p.v;
   p.pressure = T(0.0);
   for (int b = 0; b < 4; ++b) {
-    detail::add(p.a, T(-point.barycentric[b]), s.mesh_velocity[b]);
+    fluid::detail::add(p.a, T(-point.barycentric[b]), s.mesh_velocity[b]);
     p.pressure += T(point.barycentric[b]) * s.pressure[b];
   }
   p.inertia = rate + p.gradient * p.a;
   p.divergence = trace(p.gradient);
   p.mu = law.viscosity(shear_rate(p.gradient));
   p.residual = f.grad_p - f.viscous;
-  detail::add(p.residual, T(rho), p.inertia);
+  fluid::detail::add(p.residual, T(rho), p.inertia);
   T metric(0.0);
   for (int k = 1; k < 4; ++k) {
     const T along = dot(f.g[k], p.b);
@@ -180,7 +180,7 @@ template <class T>
 TUNICA_INLINE void add_residual(const PointFlow<T>& p, const fe::QuadraticPoint& point, double rho,
                                 ElementVector<T>& r) {
   Vec3<T> force = T(rho) * p.inertia;  // with N_a
-  detail::add(force, T(0.5 * rho) * p.divergence, p.v);
+  fluid::detail::add(force, T(0.5 * rho) * p.divergence, p.v);
   for (int i = 0; i < 3; ++i) force[i] = p.weight * force[i];
   Mat3<T> stress;  // with grad N_a
   const Vec3<T> stream = (p.weight * T(rho) * p.tau_m) * p.b;
@@ -189,7 +189,7 @@ TUNICA_INLINE void add_residual(const PointFlow<T>& p, const fe::QuadraticPoint&
       stress(i, j) = p.weight * p.mu * (p.gradient(i, j) + p.gradient(j, i)) + p.residual[i] * stream[j];
   for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * (p.tau_c * p.divergence - p.pressure);
   for (int a = 0; a < nodes; ++a) {
-    detail::add(r.momentum[a], T(point.N[a]), force);
+    fluid::detail::add(r.momentum[a], T(point.N[a]), force);
     r.momentum[a] = r.momentum[a] + stress * p.dN[a];
   }
   for (int a = 0; a < 4; ++a) r.continuity[a] += p.weight * p.divergence * T(point.barycentric[a]);
@@ -197,7 +197,7 @@ TUNICA_INLINE void add_residual(const PointFlow<T>& p, const fe::QuadraticPoint&
 
 template <class T>
 TUNICA_INLINE void set_zero(ElementVector<T>& r) {
-  for (auto& m : r.momentum) m = detail::zero_vector<T>();
+  for (auto& m : r.momentum) m = fluid::detail::zero_vector<T>();
   for (auto& c : r.continuity) c = T(0.0);
 }
 
@@ -233,11 +233,113 @@ inline Energy<T> energy(const ElementState<T>& state, const TimeCoefficients& ti
   return sum;
 }
 
+/// How the residual changes with the unknowns of those corners that move with the wall (as in rbvms_shape.hpp).
+template <class T>
+struct ShapeTangent {
+  Mat3<T> momentum[nodes][4];
+  Vec3<T> continuity[4][4];
+};
+
+namespace detail {
+
+using namespace fluid::detail;
+
+/// v_m,kl of each component m: constant in the element.
+template <class T>
+TUNICA_INLINE void second_derivatives(const ElementState<T>& s, const Flow<T>& f, Mat3<T> (&second)[3]) {
+  for (auto& m : second) m = zero_matrix<T>();
+  for (int b = 0; b < nodes; ++b) {
+    const Vec3<T>&g = f.g[fe::gradient_of[b][0]], &h = f.g[fe::gradient_of[b][1]];
+    for (int m = 0; m < 3; ++m) {
+      const T v = T(b < 4 ? 2.0 : 4.0) * s.velocity[b][m];  // of a corner g = h, and both terms below are one
+      add_outer(second[m], v * g, h);
+      add_outer(second[m], v * h, g);
+    }
+  }
+}
+
+/// d(div(2 mu eps))_i / d(axis j) of a corner with c_x grad l = `along`, over mu.
+template <class T>
+TUNICA_INLINE Vec3<T> viscous_variation(const Mat3<T> (&second)[3], const Vec3<T>& along, int j) {
+  Vec3<T> d;
+  T of_divergence(0.0);
+  for (int k = 0; k < 3; ++k) of_divergence += second[k](k, j);
+  for (int i = 0; i < 3; ++i) {
+    d[i] = -of_divergence * along[i];
+    for (int k = 0; k < 3; ++k) d[i] -= (T(2.0) * second[i](j, k) + second[k](j, i)) * along[k];
+  }
+  return d;
+}
+
+}  // namespace detail
+
+/// With the corner b moving along j, dN_a,k -> - N_a,j l_b,k, dV -> V l_b,j, d(grad v)_ik = - v_i,j l_b,k, and v^
+/// changes by l_b along j. Held fixed are tau_M, tau_C and b. `r` is the residual of the element, moves[b] = 1 where b
+/// follows the wall, else 0.
+template <class Law, class T>
+inline void shape_tangent(const ElementState<T>& state, const Flow<T>& f, const PointFlow<T> (&at)[points],
+                          const Law& law, double rho, const MotionCoefficients& motion, const T (&moves)[4],
+                          const ElementVector<T>& r, ShapeTangent<T>& k) {
+  Mat3<T> second[3];
+  detail::second_derivatives(state, f, second);
+  for (int b = 0; b < 4; ++b) {
+    const Vec3<T> along = (T(motion.position) * moves[b]) * f.g[b];
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) k.momentum[a][b](i, j) = along[j] * r.momentum[a][i];
+    for (int a = 0; a < 4; ++a) k.continuity[a][b] = r.continuity[a] * along;
+    Vec3<T> viscous[3];
+    for (int j = 0; j < 3; ++j) viscous[j] = f.mu * detail::viscous_variation(second, along, j);
+    for (int q = 0; q < points; ++q) {
+      const auto& point = fe::quadratic_fourteen_points[q];
+      const PointFlow<T>& p = at[q];
+      const T relative = T(motion.mesh_velocity * point.barycentric[b]) * moves[b] + dot(p.a, along);
+      const Vec3<T> stream = (p.weight * T(rho) * p.tau_m) * p.b;
+      const Mat3<T> twice_strain = p.gradient + transpose(p.gradient);
+      Vec3<T> pulled;  // stress . along
+      const T pressure = p.tau_c * p.divergence - p.pressure, stream_along = dot(stream, along);
+      for (int i = 0; i < 3; ++i) {
+        pulled[i] = p.residual[i] * stream_along + p.weight * pressure * along[i];
+        for (int l = 0; l < 3; ++l) pulled[i] += p.weight * p.mu * twice_strain(i, l) * along[l];
+      }
+      for (int j = 0; j < 3; ++j) {
+        const Vec3<T> column{{p.gradient(0, j), p.gradient(1, j), p.gradient(2, j)}};
+        const T divergence = -dot(column, along);
+        const Vec3<T> inertia = (-relative) * column;
+        Vec3<T> residual = (-f.grad_p[j]) * along - viscous[j];
+        fluid::detail::add(residual, T(rho), inertia);
+        Vec3<T> force = (p.weight * T(rho)) * inertia;
+        fluid::detail::add(force, T(0.5 * rho) * p.weight * divergence, p.v);
+        T slope(0.0);
+        if constexpr (!Law::constant) {
+          const T gamma = shear_rate(p.gradient);
+          slope = -(law.slope(gamma) / gamma) * dot(twice_strain * along, column);
+        }
+        Mat3<T> stress;
+        for (int i = 0; i < 3; ++i)
+          for (int l = 0; l < 3; ++l)
+            stress(i, l) =
+                p.weight * (slope * twice_strain(i, l) - p.mu * (column[i] * along[l] + column[l] * along[i])) +
+                residual[i] * stream[l];
+        for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * p.tau_c * divergence;
+        for (int a = 0; a < nodes; ++a) {
+          const Vec3<T> d = stress * p.dN[a];
+          for (int i = 0; i < 3; ++i)
+            k.momentum[a][b](i, j) += T(point.N[a]) * force[i] + d[i] - p.dN[a][j] * pulled[i];
+        }
+        for (int a = 0; a < 4; ++a) k.continuity[a][b][j] += p.weight * T(point.barycentric[a]) * divergence;
+      }
+    }
+  }
+}
+
 /// Residual and tangent with respect to (v_{n+1}, p), exact but for the viscosity inside tau_M and r_M. `row(a,
-/// TangentRow)` takes the rows one after another, so that a row stays in the cache.
+/// TangentRow)` takes the rows one after another, so that a row stays in the cache. `moves` (or null): see
+/// shape_tangent.
 template <class T, class Law, class TakeRow>
 inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, const Parameters& parameters,
-                    const Law& law, ElementVector<T>& r, TakeRow&& take_row) {
+                    const Law& law, const MotionCoefficients& motion, const T (*moves)[4], ElementVector<T>& r,
+                    TakeRow&& take_row) {
   const double rho = parameters.density;
   set_zero(r);
   const Flow<T> f = evaluate(state, time, parameters, law);
@@ -255,6 +357,8 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
       stream[q][b] = (T(rho) * at[q].tau_m * at[q].weight) * dot(at[q].b, at[q].dN[b]);
     }
   }
+  ShapeTangent<T> shape;
+  if (moves != nullptr) shape_tangent(state, f, at, law, rho, motion, *moves, r, shape);
   // div(2 mu eps) of a unit velocity of node b along j: h_b I + H_b, times mu.
   T laplacian[nodes];
   Mat3<T> hessian[nodes];
@@ -268,9 +372,9 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
   }
   for (int a = 0; a < nodes; ++a) {
     TangentRow<T> row;
-    for (int b = 0; b < nodes; ++b) row.velocity[b] = detail::zero_matrix<T>();
-    for (int b = 0; b < 4; ++b) row.pressure[b] = detail::zero_vector<T>();
-    for (int b = 0; b < nodes; ++b) row.continuity[b] = detail::zero_vector<T>();
+    for (int b = 0; b < nodes; ++b) row.velocity[b] = fluid::detail::zero_matrix<T>();
+    for (int b = 0; b < 4; ++b) row.pressure[b] = fluid::detail::zero_vector<T>();
+    for (int b = 0; b < nodes; ++b) row.continuity[b] = fluid::detail::zero_vector<T>();
     T sum_stream(0.0);
     T isotropic[nodes];
     for (int b = 0; b < nodes; ++b) isotropic[b] = T(0.0);
@@ -288,7 +392,7 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
         const T gamma = shear_rate(p.gradient);
         const Mat3<T> twice_strain = p.gradient + transpose(p.gradient);
         const Vec3<T> strain_a = (c * p.weight * law.slope(gamma) / gamma) * (twice_strain * p.dN[a]);
-        for (int b = 0; b < nodes; ++b) detail::add_outer(row.velocity[b], strain_a, twice_strain * p.dN[b]);
+        for (int b = 0; b < nodes; ++b) fluid::detail::add_outer(row.velocity[b], strain_a, twice_strain * p.dN[b]);
       }
       for (int b = 0; b < nodes; ++b) {
         isotropic[b] += both * transport[q][b] + half * T(point.N[b]) + dot(mu_a, p.dN[b]);
@@ -297,11 +401,12 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
             row.velocity[b](i, j) += T(point.N[b]) * by_n(i, j) + mu_a[j] * p.dN[b][i] +
                                      (div_v[i] + c * p.tau_c * p.weight * p.dN[a][i]) * p.dN[b][j];
       }
-      for (int b = 0; b < 4; ++b) detail::add(row.pressure[b], -p.weight * T(point.barycentric[b]), p.dN[a]);
+      for (int b = 0; b < 4; ++b) fluid::detail::add(row.pressure[b], -p.weight * T(point.barycentric[b]), p.dN[a]);
       if (a < 4)
-        for (int b = 0; b < nodes; ++b) detail::add(row.continuity[b], c * p.weight * T(point.barycentric[a]), p.dN[b]);
+        for (int b = 0; b < nodes; ++b)
+          fluid::detail::add(row.continuity[b], c * p.weight * T(point.barycentric[a]), p.dN[b]);
     }
-    for (int b = 0; b < 4; ++b) detail::add(row.pressure[b], sum_stream, f.g[b]);
+    for (int b = 0; b < 4; ++b) fluid::detail::add(row.pressure[b], sum_stream, f.g[b]);
     for (int b = 0; b < nodes; ++b) {
       const T diagonal = isotropic[b] - c * sum_stream * laplacian[b];
       for (int i = 0; i < 3; ++i) {
@@ -309,6 +414,11 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
         for (int j = 0; j < 3; ++j) row.velocity[b](i, j) -= c * sum_stream * hessian[b](i, j);
       }
     }
+    if (moves != nullptr)
+      for (int b = 0; b < 4; ++b) {
+        row.velocity[b] = row.velocity[b] + shape.momentum[a][b];
+        if (a < 4) row.continuity[b] = row.continuity[b] + shape.continuity[a][b];
+      }
     take_row(a, row);
   }
 }

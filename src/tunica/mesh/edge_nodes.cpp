@@ -106,4 +106,44 @@ void add_edge_nodes(MeshData& data) {
   add_twins(data, edges);
 }
 
+MeshData subdivided(const MeshData& data) {
+  assert(!data.edges.empty());
+  MeshData fine;
+  fine.points = data.points;
+  fine.node_fields = data.node_fields;
+  fine.twins = data.twins;
+  fine.regions = data.regions;
+  for (auto& region : fine.regions) {
+    region.first_element *= 8;
+    region.end_element *= 8;
+  }
+  fine.tetrahedra.reserve(8 * data.tetrahedra.size());
+  for (std::size_t e = 0; e < data.tetrahedra.size(); ++e) {
+    const auto node = [&](int a) {
+      const auto k = static_cast<std::size_t>(a);
+      return k < 4 ? data.tetrahedra[e][k] : data.edges[e][k - 4];
+    };
+    for (const auto& [a, b, c, d] : parts_of_tetrahedron)
+      fine.tetrahedra.push_back({node(a), node(b), node(c), node(d)});
+  }
+  for (const auto& field : data.fields) {
+    const auto n = static_cast<std::size_t>(field.components);
+    auto& to = fine.fields.emplace_back(ElementField{field.name, field.components, {}});
+    to.values.reserve(8 * field.values.size());
+    for (std::size_t e = 0; e < data.tetrahedra.size(); ++e)
+      for (int part = 0; part < 8; ++part)
+        for (std::size_t c = 0; c < n; ++c) to.values.push_back(field.values[n * e + c]);
+  }
+  for (const auto& face : data.faces) {
+    auto& to = fine.faces.emplace_back(FaceData{face.name, face.region, {}, {}});
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+      const auto& [a, b, c] = face.triangles[t];
+      const auto& [ab, bc, ca] = face.edges[t];
+      for (const auto& part : {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+        to.triangles.push_back(part);
+    }
+  }
+  return fine;
+}
+
 }  // namespace tunica::mesh

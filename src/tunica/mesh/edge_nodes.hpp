@@ -11,4 +11,14 @@ namespace tunica::mesh {
 /// `data` has linear elements.
 void add_edge_nodes(MeshData& data);
 
+/// The eight linear tetrahedra inside a quadratic one, by its ten nodes: four at the corners, four of the octahedron
+/// between them.
+inline constexpr int parts_of_tetrahedron[8][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3},
+                                                   {4, 8, 6, 7}, {4, 5, 6, 8}, {6, 8, 9, 7}, {6, 5, 9, 8}};
+
+/// The linear mesh on all nodes of a quadratic one: eight tetrahedra in place of one, in its order (8 e .. 8 e + 7 are
+/// those of element e), and four triangles in place of one. What is quadratic is seen by analyses that know linear
+/// elements at all its nodes.
+MeshData subdivided(const MeshData& data);
+
 }  // namespace tunica::mesh

@@ -4,6 +4,7 @@
 // The exact velocity is prescribed on five faces. On the sixth the exact traction acts: with velocities all around, the
 // level of the pressure would be open, and the linear interpolants of the exact velocities would not balance.
 #include "flow_case.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 
 namespace tunica::verification {
 namespace {
@@ -58,6 +59,32 @@ coupling::ProblemInput case_input() {
 
 distributed::DistributedMesh cube(int n) {
   return distributed::distribute(mesh::box(n, n, n, {{2, 2, 2}}, mesh::RegionKind::lumen), MPI_COMM_WORLD);
+}
+
+TEST(EthierSteinman, OrdersInSpaceOfQuadraticElements) {
+  constexpr double dt = 0.0025;
+  auto input = case_input();
+  input.newton.relative_tolerance = 1e-8;
+  const double alpha_f = 1.0 / (1.0 + input.rho_infinity);
+  std::vector<Errors> found;
+  for (const int n : {3, 6, 12}) {
+    auto data = mesh::box(n, n, n, {{2, 2, 2}}, mesh::RegionKind::lumen);
+    mesh::add_edge_nodes(data);
+    const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
+    coupling::Problem problem(mesh, input);
+    auto state = state_from(problem, 0, velocity, rate, pressure);
+    ASSERT_NO_FATAL_FAILURE(march(problem, state, dt, 10));
+    found.push_back(errors(problem, state, state.time - (1 - alpha_f) * dt, velocity, pressure));
+    say("  %2d^3 cells, quadratic: velocity %.3e  pressure %.3e", n, found.back().velocity, found.back().pressure);
+    if (found.size() > 1) {
+      const auto& coarse = found[found.size() - 2];
+      say("  order %.2f %.2f", order(coarse.velocity, found.back().velocity),
+          order(coarse.pressure, found.back().pressure));
+    }
+    say("\n");
+  }
+  EXPECT_GE(order(found[1].velocity, found[2].velocity), 2.7);
+  EXPECT_GE(order(found[1].pressure, found[2].pressure), 1.7);
 }
 
 TEST(EthierSteinman, OrdersInSpace) {

@@ -17,7 +17,7 @@
 #include "folders.hpp"
 #include "tunica/coupling/problem.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
-#include "tunica/fe/tetrahedron.hpp"
+#include "tunica/fe/quadratic_tetrahedron.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -84,6 +84,30 @@ struct Errors {
   double velocity = 0, pressure = 0;  ///< L2 norms over the domain, relative to those of the exact fields
 };
 
+/// One element of quadratic velocity, with the rule of degree 5.
+inline void add_quadratic_errors(const distributed::Region& region, std::size_t e, const Vec3<double> (&x)[4],
+                                 double volume, const coupling::State& state, double pressure_time,
+                                 const coupling::VectorField& velocity, const ScalarField& pressure,
+                                 std::vector<double>& sums) {
+  for (const auto& point : fe::quadratic_fourteen_points) {
+    Vec3<double> place{}, v{};
+    double p = 0;
+    for (int a = 0; a < 10; ++a) {
+      const double* nodal = state.velocity_pressure.data() + at(a < 4 ? region.elements[e][a] : region.edges[e][a - 4]);
+      v = v + point.N[a] * Vec3<double>{{nodal[0], nodal[1], nodal[2]}};
+      if (a >= 4) continue;
+      place = place + point.barycentric[a] * x[a];
+      p += point.barycentric[a] * nodal[3];
+    }
+    const auto exact_v = velocity(place, state.time);
+    const double exact_p = pressure(place, pressure_time), w = point.weight * volume;
+    sums[0] += w * dot(v - exact_v, v - exact_v);
+    sums[1] += w * dot(exact_v, exact_v);
+    sums[2] += w * (p - exact_p) * (p - exact_p);
+    sums[3] += w * exact_p * exact_p;
+  }
+}
+
 /// Against exact fields on the mesh at rest, with the four-point rule; the pressure belongs to time `pressure_time`.
 inline Errors errors(const coupling::Problem& problem, const coupling::State& state, double pressure_time,
                      const coupling::VectorField& velocity, const ScalarField& pressure) {
@@ -94,6 +118,11 @@ inline Errors errors(const coupling::Problem& problem, const coupling::State& st
       Vec3<double> x[4];
       for (int a = 0; a < 4; ++a) x[a] = mesh.points[region.elements[e][a]];
       const double volume = fe::gradients(x).volume;
+      if (mesh.quadratic) {
+        add_quadratic_errors(region, static_cast<std::size_t>(e), x, volume, state, pressure_time, velocity, pressure,
+                             sums);
+        continue;
+      }
       for (const auto& point : fe::four_points) {
         Vec3<double> place{}, v{};
         double p = 0;

@@ -12,6 +12,7 @@
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
 #include "tunica/stages/post/report_files.hpp"
@@ -129,6 +130,10 @@ void Post::read() {
   folder_ = post_folder(case_, request_);
   parallel::agree(comm_, [&] {
     data_ = artifacts::load_meshes(case_.meshes, {}).data;
+    if (case_.elements == case_file::Elements::quadratic) {
+      mesh::add_edge_nodes(data_);
+      data_ = mesh::subdivided(data_);
+    }
     series_.emplace(case_file::describe(case_), data_, results_);
     auto warnings = std::vector<std::string>{};
     window_ = choose_window(series_->times(), settings_, results_.string(), warnings);
