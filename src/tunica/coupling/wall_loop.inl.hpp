@@ -144,6 +144,15 @@ TUNICA_INLINE void scatter_column(const assembly::BatchDouble4 (&column)[W], con
   }
 }
 
+/// Asks for the blocks of a row ahead of time.
+template <int W>
+TUNICA_INLINE void prefetch_row(int a, const std::int32_t* slots, int kinds, const float* blocks) {
+  constexpr int n = fe::quadratic_nodes;
+  for (int kind = 0; kind < kinds; ++kind)
+    for (int k = 0; k < n * W; ++k)
+      __builtin_prefetch(blocks + 16 * static_cast<std::ptrdiff_t>(slots[(kind * n + a) * n * W + k]), 1);
+}
+
 /// Adds one row of element blocks; `slots` are those of the batch.
 template <int W, bool mixed>
 void scatter_row(const wall::quadratic::TangentRow<Pack<W>>& row, int a, const std::int32_t* slots, bool split,
@@ -192,7 +201,9 @@ void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fiel
     wq::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {
       const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * n * n * W;
+      prefetch_row<W>(0, slots, static_cast<int>(kinds), target.blocks);
       wq::tangent<mixed>(state, law, body, coefficients, prestress, r, [&](int a, const wq::TangentRow<Pack<W>>& row) {
+        if (a + 1 < n) prefetch_row<W>(a + 1, slots, static_cast<int>(kinds), target.blocks);
         scatter_row<W, mixed>(row, a, slots, batches.split, used, target.blocks);
       });
     } else {
