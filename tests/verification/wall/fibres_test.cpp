@@ -112,11 +112,12 @@ TEST(FibreTube, InflationConvergesToTheSemiAnalyticSolution) {
   EXPECT_GT(std::log2(before.hoop_stress / now.hoop_stress), 0.9);
   EXPECT_LT(now.displacement, 3e-4);
   EXPECT_LT(now.hoop_stress, 0.02);
-  // Straight edges leave the polygon, of second order; one quadratic element is as good as three linear ones.
+  // Straight edges leave the polygon, of second order. Stresses are better than those of four times as many linear
+  // ones.
   for (const int radial : {1, 2}) solve(radial, Order::quadratic);
   EXPECT_GT(std::log2(before.displacement / now.displacement), 1.8);
-  EXPECT_LT(now.displacement, 2e-3);
-  EXPECT_LT(now.hoop_stress, 0.02);
+  EXPECT_LT(now.displacement, 3e-3);
+  EXPECT_LT(now.hoop_stress, 0.005);
 }
 
 /// Norms of one load step of the tube from `from` to `to` [Pa].
