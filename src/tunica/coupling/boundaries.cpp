@@ -11,6 +11,7 @@
 #include "tunica/coupling/whole_face.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/wall/quadratic_surface.hpp"
 
 namespace tunica::coupling {
 
@@ -394,6 +395,10 @@ void Boundaries::add_traction_field(const TractionField& load, double t, double 
 void Boundaries::add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
                                const LoadCoefficients& coefficients, std::span<double> residual,
                                assembly::BlockMatrix* matrix) const {
+  if (mesh_.quadratic) {
+    add_quadratic_wall_load(load, value, factor, fields, coefficients, residual, matrix);
+    return;
+  }
   for (std::size_t t = 0; t < mesh_.faces[load.face].triangles.size(); ++t) {
     const auto& own = mesh_.faces[load.face].triangles[t];
     const std::array<std::int32_t, 3> triangle{mesh_.host[own[0]], mesh_.host[own[1]], mesh_.host[own[2]]};
@@ -430,6 +435,48 @@ void Boundaries::add_wall_load(const Load& load, double value, double factor, co
       for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += r.r[a][i];
       for (int b = 0; b < 3 && matrix != nullptr; ++b)
         add_block(pattern_, *matrix, triangle[a], triangle[b], [&](int i, int j) { return k.k[a][b][i][j]; });
+    }
+  }
+}
+
+void Boundaries::add_quadratic_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
+                                         const LoadCoefficients& coefficients, std::span<double> residual,
+                                         assembly::BlockMatrix* matrix) const {
+  namespace wq = wall::quadratic;
+  const auto& face = mesh_.faces[load.face];
+  for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+    auto nodes = quadratic_nodes(face, t);
+    for (auto& node : nodes) node = mesh_.host[node];
+    wq::SurfaceState<double> s;
+    gather(fields.reference_position, nodes, s.X);
+    gather(fields.displacement, nodes, s.u);
+    gather(fields.velocity_pressure, nodes, s.velocity);
+    wq::SurfaceVector<double> r{};
+    wq::SurfaceMatrix<double> k{};
+    auto* tangent = matrix != nullptr ? &k : nullptr;
+    switch (load.kind) {
+      case Load::Kind::dead_traction:
+        wq::add_dead_traction(s, value * load.vector, r);
+        tangent = nullptr;
+        break;
+      case Load::Kind::dead_pressure:
+        wq::add_dead_pressure(s, value, r);
+        tangent = nullptr;
+        break;
+      case Load::Kind::follower_pressure:
+        wq::add_follower_pressure(s, load.pressures.empty() ? value : factor * load.pressures[t],
+                                  coefficients.displacement, r, tangent);
+        break;
+      default: {
+        wall::TissueSupport<double> support = load.support[t];
+        support.pressure *= factor;
+        wq::add_support(s, support, coefficients.displacement, coefficients.velocity, r, tangent);
+      }
+    }
+    for (int a = 0; a < wq::triangle_nodes; ++a) {
+      for (int i = 0; i < 3; ++i) residual[at(nodes[a]) + i] += r.r[a][i];
+      for (int b = 0; b < wq::triangle_nodes && tangent != nullptr; ++b)
+        add_block(pattern_, *matrix, nodes[a], nodes[b], k.k[a][b]);
     }
   }
 }

@@ -110,6 +110,9 @@ class Boundaries {
   void add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
                           const LoadCoefficients& coefficients, std::span<double> residual,
                           assembly::BlockMatrix* matrix) const;
+  void add_quadratic_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
+                               const LoadCoefficients& coefficients, std::span<double> residual,
+                               assembly::BlockMatrix* matrix) const;
   void add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
                      const LoadCoefficients& coefficients, std::span<double> residual,
                      assembly::BlockMatrix* matrix) const;

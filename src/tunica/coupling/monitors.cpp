@@ -5,12 +5,12 @@
 #include <set>
 
 #include "tunica/coupling/nodal.hpp"
-#include "tunica/coupling/wall_model.hpp"
+#include "tunica/coupling/wall_element.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/fluid/energy.hpp"
 #include "tunica/fluid/taylor_hood.hpp"
 #include "tunica/parallel/agree.hpp"
-#include "tunica/wall/output.hpp"
+#include "tunica/wall/quadratic_output.hpp"
 
 namespace tunica::coupling {
 
@@ -156,6 +156,27 @@ void Monitors::lumen_elements(double dt, StepRecord& record) const {
   record.numerical_dissipation = sums[3];
 }
 
+void Monitors::quadratic_wall_elements(std::size_t index, double (&sums)[3]) const {
+  namespace wq = wall::quadratic;
+  const auto& mesh = problem_.mesh();
+  const auto& region = mesh.regions[index];
+  const FieldsView f = problem_.fields();
+  const WallModel& model = problem_.wall_model();
+  for (std::int32_t e = 0; e < region.owned_elements; ++e) {
+    const auto s = quadratic_wall_element(mesh, model, f, index, e);
+    Vec3<double> velocity[wq::nodes];
+    for (std::size_t a = 0; a < 10; ++a)
+      velocity[a] = vector_at(f.velocity_pressure, a < 4 ? region.elements[e][a] : region.edges[e][a - 4]);
+    const auto [law, body] = model.material(index, e);
+    const auto S0 = model.prestress(index, e);
+    const auto* prestress = model.prestress().kind == wall::PrestressKind::stress ? &S0 : nullptr;
+    sums[0] += wq::present_volume(s);
+    sums[1] += wq::kinetic_energy(s.reference.volume, velocity, body.density);
+    sums[2] += model.mixed() ? wq::strain_energy<true>(s, law, body, prestress)
+                             : wq::strain_energy<false>(s, law, body, prestress);
+  }
+}
+
 void Monitors::wall_elements(StepRecord& record) const {
   const auto& mesh = problem_.mesh();
   const FieldsView f = problem_.fields();
@@ -164,6 +185,10 @@ void Monitors::wall_elements(StepRecord& record) const {
   for (std::size_t i = 0; i < mesh.regions.size(); ++i) {
     const auto& region = mesh.regions[i];
     if (region.kind != RegionKind::wall) continue;
+    if (mesh.quadratic) {
+      quadratic_wall_elements(i, sums);
+      continue;
+    }
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
       const auto& nodes = region.elements[e];
       Vec3<double> X[4], velocity[4], x[4];

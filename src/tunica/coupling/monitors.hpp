@@ -56,6 +56,7 @@ class Monitors {
   void faces(StepRecord& record) const;
   void quadratic_lumen_elements(const distributed::Region& region, double (&sums)[4]) const;
   void lumen_elements(double dt, StepRecord& record) const;
+  void quadratic_wall_elements(std::size_t region, double (&sums)[3]) const;
   void wall_elements(StepRecord& record) const;
   void powers(StepRecord& record) const;
   void extremes(StepRecord& record) const;

@@ -38,17 +38,23 @@ WallPrestress without_prestress(const distributed::DistributedMesh& mesh, Method
   return p;
 }
 
-/// dx/dX of the motion from the imaged shape, global axes.
+/// dx/dX of the motion from the imaged shape, global axes; of a quadratic element its mean.
 Mat3<double> motion_gradient(const distributed::DistributedMesh& mesh, const State& state,
-                             const std::array<std::int32_t, 4>& nodes) {
-  wall::ElementState<double> e;
+                             const distributed::Region& region, std::size_t element) {
+  const auto& nodes = region.elements[element];
+  wall::quadratic::ElementState<double> e{};
   Vec3<double> X[4];
+  wall::ElementState<double> shape;
   for (int a = 0; a < 4; ++a) {
     X[a] = mesh.points[nodes[a]];
-    e.displacement[a] = vector_at(state.displacement.data(), nodes[a]);
+    shape.displacement[a] = e.displacement[a] = vector_at(state.displacement.data(), nodes[a]);
   }
-  wall::set_reference(e, X);
-  return wall::deformation_gradient(e);
+  wall::set_reference(shape, X);
+  if (!mesh.quadratic) return wall::deformation_gradient(shape);
+  for (std::size_t k = 0; k < 6; ++k)
+    e.displacement[4 + k] = vector_at(state.displacement.data(), region.edges[element][k]);
+  e.reference = shape.reference;
+  return wall::deformation_gradient(wall::quadratic::at_centroid(e));
 }
 
 std::vector<double> flat(const WallPrestress& prestress) {
@@ -109,6 +115,8 @@ void FixedPoint::find_prestressed_nodes() {
     if (excluded(region)) continue;
     for (const auto& element : region.elements)
       for (const auto node : element) prestressed_[static_cast<std::size_t>(node)] = 1;
+    for (const auto& edges : region.edges)
+      for (const auto node : edges) prestressed_[static_cast<std::size_t>(node)] = 1;
   }
   if (!left.empty())
     throw InputError("prestress.exclude", "the mesh has no wall region " + left.front(), "use one of: " + names);
@@ -184,7 +192,7 @@ WallPrestress FixedPoint::updated(const State& loaded) const {
     const auto& region = mesh_.regions[r];
     if (region.kind != mesh::RegionKind::wall || excluded(region)) continue;
     for (std::size_t e = 0; e < region.elements.size(); ++e) {
-      const Mat3<double> F = motion_gradient(mesh_, loaded, region.elements[e]);
+      const Mat3<double> F = motion_gradient(mesh_, loaded, region, e);
       if (settings_.method == Method::stretch) {
         Mat3<double> F0;
         for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = next.values[r][9 * e + static_cast<std::size_t>(k)];

@@ -131,10 +131,11 @@ std::vector<double> Problem::negligible_forces() const {
   std::vector<double> forces(at(mesh_.nodes()), 0.0);
   for (const auto& face : mesh_.faces) {
     if (mesh_.regions[face.region].kind != mesh::RegionKind::wall) continue;
-    for (const auto& t : face.triangles) {
+    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+      const auto& t = face.triangles[k];
       const Vec3<double> twice =
           cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
-      for (const auto node : t)
+      for (const auto node : mesh_.quadratic ? face.edges[k] : t)
         for (int c = 0; c < 3; ++c) forces[at(mesh_.host[node]) + c] += 1e-12 * mu / 6.0 * twice[c];
     }
   }

@@ -3,14 +3,21 @@
 
 #include "tunica/coupling/state.hpp"
 #include "tunica/coupling/wall_model.hpp"
+#include "tunica/wall/quadratic_element.hpp"
 
 namespace tunica::coupling {
 
-/// The element with its reference in its fibre frame, displacement, acceleration and pressure.
+/// The element with its reference in its fibre frame, displacement, acceleration and pressure. Of a quadratic mesh: the
+/// linear element that has its deformation gradient, displacement and pressure at the centroid.
 wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
                                         const State& state, std::size_t region, std::int32_t element);
 
-/// Its Cauchy stress with the prestress in global axes [Pa], Voigt 11 22 33 12 23 13.
+/// The element of a quadratic mesh with displacement, acceleration and pressure of `fields`.
+wall::quadratic::ElementState<double> quadratic_wall_element(const distributed::DistributedMesh& mesh,
+                                                             const WallModel& model, const FieldsView& fields,
+                                                             std::size_t region, std::int32_t element);
+
+/// Cauchy stress of wall_element() with the prestress in global axes [Pa], Voigt 11 22 33 12 23 13.
 wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element,
                                       const wall::ElementState<double>& state);
 

@@ -4,6 +4,7 @@
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/coupling/gather.inl.hpp"
 #include "tunica/wall/prestress.hpp"
+#include "tunica/wall/quadratic_element.hpp"
 
 namespace tunica::coupling {
 
@@ -63,6 +64,15 @@ TUNICA_INLINE auto law_of(const WallGroupView& group, std::int32_t batch) {
   }
 }
 
+template <int W>
+TUNICA_INLINE wall::BodyOf<Pack<W>> body_of(const WallGroupView& group, std::int32_t batch,
+                                            const WallElementSettings& settings) {
+  const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 4 * W;
+  return {.density = Pack<W>::load(values),
+          .volumetric = {settings.volumetric_energy, Pack<W>::load(values + W)},
+          .stabilisation = settings.stabilisation};
+}
+
 template <int W, wall::LawKind kind, bool mixed, bool with_tangent>
 void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
                     const wall::Coefficients& coefficients, const LoopTarget& target) {
@@ -77,10 +87,7 @@ void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const 
     gather_vectors<W>(fields.displacement, nodes, state.displacement);
     gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
     gather_vectors<W>(fields.velocity_pressure, nodes, velocity, state.pressure);
-    const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 4 * W;
-    const wall::BodyOf<Pack<W>> body{.density = Pack<W>::load(values),
-                                     .volumetric = {settings.volumetric_energy, Pack<W>::load(values + W)},
-                                     .stabilisation = settings.stabilisation};
+    const auto body = body_of<W>(group, batch, settings);
     const auto law = law_of<W, kind>(group, batch);
     const int used = used_lanes<W>(batches, batch);
     fe::ElementVector<Pack<W>> r;
@@ -116,11 +123,116 @@ void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const 
   }
 }
 
+/// One column of a block of the used lanes; where the batch is split, motion and pressure rows go their own ways.
+template <int W>
+TUNICA_INLINE void scatter_column(const assembly::BatchDouble4 (&column)[W], const std::int32_t* slots, int j,
+                                  bool split, int used, float* blocks) {
+  constexpr int pairs = fe::quadratic_nodes * fe::quadratic_nodes;
+  const assembly::BatchFloat4 motion{1, 1, 1, 0}, pressure{0, 0, 0, 1};
+  const int kind = split && j == 3 ? 1 : 0;  // columns 0-2 belong to the host, column 3 to the node
+  for (int lane = 0; lane < used; ++lane) {
+    const auto value = __builtin_convertvector(column[lane], assembly::BatchFloat4);
+    const auto add = [&](int to, const assembly::BatchFloat4& part) {
+      assembly::add_column(blocks + 16 * static_cast<std::ptrdiff_t>(slots[to * pairs * W + lane]) + 4 * j, part);
+    };
+    if (split) {
+      add(kind, value * motion);
+      add(kind + 2, value * pressure);
+    } else {
+      add(0, value);
+    }
+  }
+}
+
+/// Asks for the blocks of a row ahead of time.
+template <int W>
+TUNICA_INLINE void prefetch_row(int a, const std::int32_t* slots, int kinds, const float* blocks) {
+  constexpr int n = fe::quadratic_nodes;
+  for (int kind = 0; kind < kinds; ++kind)
+    for (int k = 0; k < n * W; ++k)
+      __builtin_prefetch(blocks + 16 * static_cast<std::ptrdiff_t>(slots[(kind * n + a) * n * W + k]), 1);
+}
+
+/// Adds one row of element blocks; `slots` are those of the batch.
+template <int W, bool mixed>
+void scatter_row(const wall::quadratic::TangentRow<Pack<W>>& row, int a, const std::int32_t* slots, bool split,
+                 int used, float* blocks) {
+  const Pack<W> zero(0.0);
+  const bool corner = mixed && a < fe::nodes;
+  for (int b = 0; b < fe::quadratic_nodes; ++b) {
+    const std::int32_t* of_pair = slots + (fe::quadratic_nodes * a + b) * W;
+    assembly::BatchDouble4 column[W];
+    for (int j = 0; j < 3; ++j) {
+      assembly::to_lanes<W>(row.motion[b](0, j), row.motion[b](1, j), row.motion[b](2, j),
+                            corner ? row.constraint[b][j] : zero, column);
+      scatter_column<W>(column, of_pair, j, split, used, blocks);
+    }
+    if (!mixed || b >= fe::nodes) continue;
+    assembly::to_lanes<W>(row.pressure[b][0], row.pressure[b][1], row.pressure[b][2],
+                          corner ? row.compressibility[b] : zero, column);
+    scatter_column<W>(column, of_pair, 3, split, used, blocks);
+  }
+}
+
+template <int W, wall::LawKind kind, bool mixed>
+void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
+                              const wall::Coefficients& coefficients, const LoopTarget& target) {
+  namespace wq = wall::quadratic;
+  constexpr int n = fe::quadratic_nodes;
+  const BatchView& batches = group.batches;
+  const std::ptrdiff_t kinds = batches.split ? 4 : 1;
+  for (std::int32_t batch = 0; batch < batches.batches; ++batch) {
+    const std::int32_t* nodes = batches.nodes + static_cast<std::ptrdiff_t>(batch) * n * W;
+    wall::ElementState<Pack<W>> shape;
+    wq::ElementState<Pack<W>> state;
+    Vec3<Pack<W>> position[4], velocity[4];
+    gather_vectors<W>(fields.reference_position, nodes, position);
+    set_reference_of<W>(group, batch, position, shape);
+    state.reference = shape.reference, state.axes = shape.axes;
+    gather_vectors<W>(fields.displacement, nodes, state.displacement);
+    gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
+    gather_vectors<W>(fields.velocity_pressure, nodes, velocity, state.pressure);
+    const auto body = body_of<W>(group, batch, settings);
+    const auto law = law_of<W, kind>(group, batch);
+    const int used = used_lanes<W>(batches, batch);
+    wall::Symmetric<Pack<W>> S0;
+    if (group.prestress != nullptr) S0 = prestress_of<W>(group, batch);
+    const auto* prestress = group.prestress != nullptr ? &S0 : nullptr;
+    wq::ElementVector<Pack<W>> r;
+    if (target.blocks != nullptr) {
+      const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * n * n * W;
+      prefetch_row<W>(0, slots, static_cast<int>(kinds), target.blocks);
+      wq::tangent<mixed>(state, law, body, coefficients, prestress, r, [&](int a, const wq::TangentRow<Pack<W>>& row) {
+        if (a + 1 < n) prefetch_row<W>(a + 1, slots, static_cast<int>(kinds), target.blocks);
+        scatter_row<W, mixed>(row, a, slots, batches.split, used, target.blocks);
+      });
+    } else {
+      wq::residual<mixed>(state, law, body, coefficients, prestress, r);
+    }
+    const Pack<W> zero(0.0);
+    for (int a = 0; a < n; ++a) {
+      const Pack<W>& constraint = a < fe::nodes ? r.constraint[a] : zero;
+      const auto& force = r.momentum[a];
+      if (batches.split) {
+        const std::int32_t* hosts = batches.hosts + static_cast<std::ptrdiff_t>(batch) * n * W;
+        assembly::scatter_node<W>(force[0], force[1], force[2], zero, hosts + a * W, used, target.residual);
+        assembly::scatter_node<W>(zero, zero, zero, constraint, nodes + a * W, used, target.residual);
+      } else {
+        assembly::scatter_node<W>(force[0], force[1], force[2], constraint, nodes + a * W, used, target.residual);
+      }
+    }
+  }
+}
+
 template <int W, wall::LawKind kind>
 void wall_of_kind(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
                   const wall::Coefficients& coefficients, const LoopTarget& target) {
   const bool with_tangent = target.blocks != nullptr;
-  if (settings.mixed && with_tangent)
+  if (group.batches.quadratic && settings.mixed)
+    loop_over_quadratic_wall<W, kind, true>(group, fields, settings, coefficients, target);
+  else if (group.batches.quadratic)
+    loop_over_quadratic_wall<W, kind, false>(group, fields, settings, coefficients, target);
+  else if (settings.mixed && with_tangent)
     loop_over_wall<W, kind, true, true>(group, fields, settings, coefficients, target);
   else if (settings.mixed)
     loop_over_wall<W, kind, true, false>(group, fields, settings, coefficients, target);

@@ -263,7 +263,7 @@ void WallModel::update_present_modulus(std::vector<Group>& groups, const FieldsV
   const auto width = static_cast<std::size_t>(isa);
   std::vector<double> modulus;
   for (Group& group : groups) {
-    if (group.kind == wall::LawKind::linear) continue;
+    if (group.kind == wall::LawKind::linear || group.batches.nodes_per_element != fe::nodes) continue;
     const auto& members = group.batches.elements_of_region;
     modulus.resize(static_cast<std::size_t>(group.batches.batches()) * width);
     element_loops(isa).wall.modulus(group.view(), fields, modulus.data());

@@ -72,7 +72,8 @@ class WallModel {
   void set_prestress(WallPrestress prestress, std::vector<Group>& groups);
 
   /// Takes the present modulus (1.16) of all elements from the displacement in `fields`, for the groups, which must be
-  /// this model's, and for material(). Only the stabilisation of the mixed element depends on it.
+  /// this model's, and for material(). Only the stabilisation of the linear mixed element depends on it; quadratic
+  /// elements keep the modulus at rest.
   void update_present_modulus(std::vector<Group>& groups, const FieldsView& fields, assembly::Isa isa);
 
  private:

@@ -54,8 +54,12 @@ struct Fields {
   std::vector<double> reference, position, velocity_pressure, acceleration, mesh_velocity, displacement;
 
   coupling::FieldsView view() const {
-    return {reference.data(),    position.data(),      velocity_pressure.data(),
-            acceleration.data(), mesh_velocity.data(), displacement.data()};
+    return {.reference_position = reference.data(),
+            .position = position.data(),
+            .velocity_pressure = velocity_pressure.data(),
+            .acceleration = acceleration.data(),
+            .mesh_velocity = mesh_velocity.data(),
+            .displacement = displacement.data()};
   }
 };
 

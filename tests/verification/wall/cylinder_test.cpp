@@ -32,8 +32,8 @@ double scatter(const distributed::DistributedMesh& mesh, const State& state, con
 }
 
 Solution inflate(const SolidCase& c, const mesh::MeshData& tube, int steps, const bc::Condition& inner,
-                 const bc::Condition& outer) {
-  const auto mesh = share(tube);
+                 const bc::Condition& outer, Order order = Order::linear) {
+  const auto mesh = share(tube, order);
   Problem problem(mesh, solid_input(c, plane_strain(inner, outer)));
   State state = problem.initial_state();
   Solution s{};
@@ -45,8 +45,9 @@ Solution inflate(const SolidCase& c, const mesh::MeshData& tube, int steps, cons
   return s;
 }
 
-Solution inflate(const SolidCase& c, int radial, int steps, const bc::Condition& inner, const bc::Condition& outer) {
-  return inflate(c, mesh::thick_cylinder(sizes(radial), mesh::Sector::quarter), steps, inner, outer);
+Solution inflate(const SolidCase& c, int radial, int steps, const bc::Condition& inner, const bc::Condition& outer,
+                 Order order = Order::linear) {
+  return inflate(c, mesh::thick_cylinder(sizes(radial), mesh::Sector::quarter), steps, inner, outer, order);
 }
 
 /// The displacement element by elimination, each rank for itself.
@@ -160,6 +161,34 @@ TEST(ThickCylinder, MixedElementAndLockingOfTheDisplacementElement) {
   EXPECT_LT(previous, -0.1);  // locked
 }
 
+/// The same inflation with quadratic elements. Their edges are straight, so that what is left is the polygon in place
+/// of the circle: 8 edges for each element through the quarter, whose error falls with the square of their length.
+TEST(ThickCylinder, QuadraticElement) {
+  const double a = 0.012;
+  const Inflated exact = exact_inflation(a);
+  print("thick cylinder, quadratic elements, p %.4f kPa, exact (nu 0.5): u %.4f mm, hoop %.3f kPa\n",
+        exact.pressure / 1e3, 1e3 * (a - A), exact.hoop_inner / 1e3);
+  const auto run = [&](Element element, double nu, int radial) {
+    const Solution s = inflate({element, mu, nu}, radial, 4, bc::Pressure{bc::WaveformInput{exact.pressure}},
+                               bc::Free{}, Order::quadratic);
+    const double u_error = s.inner_displacement / (a - A) - 1, hoop_error = s.stress.hoop_inner / exact.hoop_inner - 1;
+    print("  %-12s %7.4f    %2d     %.5f    %+7.3f    %.4f        %+7.3f   %.2f  (%d linear iterations in %zu)\n",
+          name(element), nu, radial, 1e3 * s.inner_displacement, 100 * u_error, s.stress.hoop_inner / 1e3,
+          100 * hoop_error, 100 * s.stress.hoop_scatter / exact.hoop_inner, s.last.linear_iterations(),
+          s.last.iterations.size());
+    return std::pair(u_error, hoop_error);
+  };
+  for (const double nu : {0.49, 0.4999}) run(Element::mixed, nu, 2);
+  double previous = 0;
+  for (const int radial : {1, 2, 4}) {
+    const auto [u_error, hoop_error] = run(Element::mixed, 0.5, radial);
+    EXPECT_LT(std::abs(u_error), 0.01);
+    EXPECT_LT(std::abs(hoop_error), 0.01);
+    previous = u_error;
+  }
+  EXPECT_LT(std::abs(previous), 1e-3);
+}
+
 /// Lame's solution, at a thousandth of the table's pressure so that strains are small.
 TEST(ThickCylinder, SmallStrains) {
   const auto rows = reference("lame_cylinder.csv");
@@ -209,6 +238,7 @@ TEST(ThickCylinder, TissueSupport) {
   Solution constant{};
   for (const double k : {0.0, k_s})
     compare("constant", constant = inflate(c, 4, 1, inner, bc::Support{.stiffness = k}), k);
+  compare("quadratic elements", inflate(c, 2, 1, inner, bc::Support{.stiffness = k_s}, Order::quadratic), k_s);
 
   // k_s between 0.2 and 1.8 of its mean around the tube, and the pressure p0 that makes up for it: the same balance.
   auto tube = mesh::thick_cylinder(sizes(4), mesh::Sector::quarter);
@@ -229,13 +259,16 @@ TEST(ThickCylinder, TissueSupport) {
 /// The tangent is consistent: norms fall quadratically until the single precision of the stored matrix limits an
 /// iteration to about 1e-6.
 TEST(ThickCylinder, NewtonConvergesQuadratically) {
-  for (const Element element : {Element::displacement, Element::mixed}) {
+  for (const auto& [element, order] : {std::pair{Element::displacement, Order::linear},
+                                       {Element::mixed, Order::linear},
+                                       {Element::displacement, Order::quadratic},
+                                       {Element::mixed, Order::quadratic}}) {
     const SolidCase c{element, mu, element == Element::mixed ? 0.5 : 0.3};
-    const Solution s = inflate(c, 2, 1, bc::Pressure{bc::WaveformInput{1000.0}}, bc::Support{.stiffness = 1e6});
+    const Solution s = inflate(c, 2, 1, bc::Pressure{bc::WaveformInput{1000.0}}, bc::Support{.stiffness = 1e6}, order);
     std::vector<double> norms;
     for (const auto& record : s.last.iterations) norms.push_back(record.norm);
     norms.push_back(s.last.final_norm);
-    print("Newton, %-12s nu %.2g: norms", name(element), c.poisson_ratio);
+    print("Newton, %-9s %-12s nu %.2g: norms", name(order), name(element), c.poisson_ratio);
     for (const double x : norms) print(" %.2e", x);
     print("\n");
     ASSERT_GE(norms.size(), 4u);

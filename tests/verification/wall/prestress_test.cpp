@@ -42,8 +42,9 @@ double mean_hoop_stress(const distributed::DistributedMesh& mesh, const coupling
   return sums[0] / sums[1];
 }
 
-Prestressed prestress(const mesh::CylinderSizes& cylinder, ProblemInput in, const PrestressSettings& settings) {
-  const auto mesh = share(mesh::thick_cylinder(cylinder, mesh::Sector::quarter));
+Prestressed prestress(const mesh::CylinderSizes& cylinder, ProblemInput in, const PrestressSettings& settings,
+                      Order order = Order::linear) {
+  const auto mesh = share(mesh::thick_cylinder(cylinder, mesh::Sector::quarter), order);
   Problem problem(mesh, in);
   Prestressed found{coupling::find_prestress(problem, settings, 0.0, [](const auto&) {}), 0, {}, 0};
   const auto& r = found.result;
@@ -93,6 +94,22 @@ TEST(Prestress, ThinTubeCarriesTheHoopStressOfEquilibrium) {
         EXPECT_LT(found.moved, 1e-4);
         EXPECT_LT(std::abs(found.mean_hoop / exact - 1), 0.01);
       }
+}
+
+/// One quadratic element through the thickness. Prestress that is constant in the element cannot balance the load in
+/// each of its nodes: what is left moves the wall by 1e-4 of its radius, a four-hundredth of its thickness, and no
+/// more.
+TEST(Prestress, QuadraticElements) {
+  const mesh::CylinderSizes thin{
+      .inner = 0.012, .outer = 0.0125, .length = 0.001, .cells_radial = 1, .cells_around = 24, .cells_along = 2};
+  const double exact = p * thin.inner / (thin.outer - thin.inner);
+  print("thin tube, quadratic elements: p R / h = %.2f kPa\n", exact / 1e3);
+  for (auto settings : methods()) {
+    settings.tolerance = 3e-6;
+    const auto found = prestress(thin, solid_input({Element::mixed, 4e5, 0.49}, loads()), settings, Order::quadratic);
+    EXPECT_LT(found.moved, 4e-4);
+    EXPECT_LT(std::abs(found.mean_hoop / exact - 1), 0.01);
+  }
 }
 
 /// Hoop stress at the inner face of an incompressible neo-Hooke tube that has the given radii under p (the inverse

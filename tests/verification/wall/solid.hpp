@@ -13,6 +13,7 @@
 
 #include "tunica/coupling/problem.hpp"
 #include "tunica/coupling/wall_element.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/wall/output.hpp"
@@ -73,7 +74,11 @@ inline bc::Fixed held(bool x, bool y, bool z) {
   return fixed;
 }
 
-inline distributed::DistributedMesh share(const mesh::MeshData& data) {
+enum class Order { linear, quadratic };
+inline const char* name(Order order) { return order == Order::linear ? "linear" : "quadratic"; }
+
+inline distributed::DistributedMesh share(mesh::MeshData data, Order order = Order::linear) {
+  if (order == Order::quadratic) mesh::add_edge_nodes(data);
   return distributed::distribute(parallel::rank(MPI_COMM_WORLD) == 0 ? data : mesh::MeshData{}, MPI_COMM_WORLD);
 }
 

@@ -1,0 +1,45 @@
+// Energies and volume of the quadratic wall elements.
+#pragma once
+
+#include "tunica/wall/output.hpp"
+#include "tunica/wall/quadratic_element.hpp"
+
+namespace tunica::wall::quadratic {
+
+/// Kinetic energy [J] with the consistent mass, from nodal velocities [m/s].
+template <class T>
+inline T kinetic_energy(const T& volume, const Vec3<T> (&velocity)[nodes], double density) {
+  T sum(0.0);
+  for (int a = 0; a < nodes; ++a)
+    for (int b = 0; b < nodes; ++b) sum += T(fe::quadratic_mass[a][b]) * dot(velocity[a], velocity[b]);
+  return T(0.5 * density) * volume * sum;
+}
+
+/// Present volume [m^3]; `e` may be prestretched.
+template <class T>
+inline T present_volume(const ElementState<T>& e) {
+  T sum(0.0);
+  for (const auto& point : fe::quadratic_four_points) {
+    const wall::ElementState<T> s = at_point(e, point);
+    sum += s.reference.volume * determinant(deformation_gradient(s));
+  }
+  return sum;
+}
+
+/// Stored energy [J], see output.hpp, with that of the prestress S0 [Pa, axes of the gradients], which may be null.
+template <bool mixed, class T, class L>
+inline T strain_energy(const ElementState<T>& e, const L& law, const Body& body,
+                       const std::type_identity_t<Symmetric<T>>* S0) {
+  T sum(0.0);
+  for (const auto& point : fe::quadratic_four_points) {
+    const wall::ElementState<T> s = at_point(e, point);
+    if constexpr (mixed)
+      sum += mixed_strain_energy(s, law, body);  // without the subscale, as there is no gradient of p
+    else
+      sum += displacement_strain_energy(s, law, body);
+    if (S0 != nullptr) sum += prestress_energy(s, *S0);
+  }
+  return sum;
+}
+
+}  // namespace tunica::wall::quadratic
