@@ -82,7 +82,7 @@ void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fi
     gather_vectors<W>(fields.velocity_pressure, nodes, state.velocity, state.pressure);
     gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
     gather_vectors<W>(fields.mesh_velocity, nodes, state.mesh_velocity);
-    gather_vectors<W>(fields.stream, nodes, state.stream);
+    gather_vectors<W>(fields.stream, nodes, state.stream, state.rate_squared);
     const int used = used_lanes<W>(batches, batch);
     th::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {

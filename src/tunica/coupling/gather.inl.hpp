@@ -17,15 +17,15 @@ TUNICA_INLINE void gather_vectors(const double* field, const std::int32_t* nodes
   }
 }
 
-/// The fourth entries as far as `fourth` goes: pressures belong to corners.
-template <int W, int N>
+/// The fourth entries of the first M nodes: pressures belong to corners.
+template <int W, int N, int M>
 TUNICA_INLINE void gather_vectors(const double* field, const std::int32_t* nodes, Vec3<Pack<W>> (&out)[N],
-                                  Pack<W> (&fourth)[4]) {
+                                  Pack<W> (&fourth)[M]) {
   for (int a = 0; a < N; ++a) {
     Pack<W> values[4];
     assembly::gather4<W>(field, nodes + a * W, values);
     for (int i = 0; i < 3; ++i) out[a][i] = values[i];
-    if (a < 4) fourth[a] = values[3];
+    if (a < M) fourth[a] = values[3];
   }
 }
 

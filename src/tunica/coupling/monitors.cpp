@@ -108,6 +108,7 @@ void Monitors::quadratic_lumen_elements(const distributed::Region& region, doubl
     gather(f.acceleration, nodes, s.acceleration);
     gather(f.mesh_velocity, corners, s.mesh_velocity);
     gather(f.stream, nodes, s.stream);
+    for (int a = 0; a < 10; ++a) s.rate_squared[a] = f.stream[at(nodes[a]) + 3];
     for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(corners[a]) + 3];
     const auto energy = std::visit(
         [&](const auto& law) {

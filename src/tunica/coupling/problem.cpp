@@ -486,7 +486,13 @@ StepReport Problem::advance(State& state, double dt) {
   for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = -state.displacement_rate[k];
   for (const auto& edge : edges_)
     if (edge.lumen) set_to_mean(stream_, edge);
-  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] += state.velocity_pressure[k];
+  for (std::size_t k = 0; k < stream_.size(); k += 4) {
+    stream_[k + 3] = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      stream_[k + c] += state.velocity_pressure[k + c];
+      stream_[k + 3] += state.acceleration[k + c] * state.acceleration[k + c];
+    }
+  }
   follow_velocity(state, next, scheme);
   // Until the first increment the mesh goes on as it moved; the interface is moved by its velocity.
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)

@@ -5,17 +5,18 @@
 //   (w, rho (v. + a.grad v + 1/2 (div v) v)) + (grad w, 2 mu eps - p I) + (q, div v)
 //   + sum_e (tau_M rho b.grad w, r_M) + (tau_C div w, div v) = boundary terms,
 //   r_M = rho (v. + a.grad v) + grad p - div(2 mu eps),
-//   tau_M = [rho sqrt(b.G b + (mean_e |b|^2 + (U / 5)^2) tr G / 3 + c_I (mu / rho)^2 G:G)]^-1,
+//   tau_M = [rho sqrt(b.G b + s^2 tr G / 3 + (2 c_M)^2 mean_e |v.|^2 / s^2 + c_I (mu / rho)^2 G:G)]^-1,
+//   s^2 = mean_e |b|^2 + (U / 5)^2,
 //   tau_C = kappa / (tau_M tr G),
-// with b = a at the start of the step.
+// with b = a and v. at the start of the step.
 //
 // The pair satisfies the inf-sup condition, so no subscale carries mass: div v = 0 holds against every linear q. The
 // term with 1/2 (div v) keeps convection from making energy where div v does not vanish in points (Temam 1968).
 //
-// tau_M does not know the time step: what a steady flow loses must not depend on it. In its place stands the time in
-// which blood crosses the element; a fifth of the speed U of the whole flow keeps tau_M smooth where blood stagnates
-// (docs/theory.md has what this does to a jet). As b is known, the stabilisation is linear in the unknowns: with b = a
-// Newton's method fails when a flow starts at once.
+// tau_M does not know the time step: what a steady flow loses must not depend on it. In its place stand the times in
+// which blood crosses the element and in which its velocity changes; a fifth of the speed U of the whole flow keeps
+// tau_M smooth where blood stagnates (docs/theory.md has what this does to a jet). As b is known, the stabilisation is
+// linear in the unknowns: with b = a Newton's method fails when a flow starts at once.
 //
 // tau_C makes the velocity robust against the pressure: that of a jet, rho |v|^2 / 2, is far from linear in an element,
 // and what linear pressure cannot balance drives v apart, by an error over mu without tau_C and over tau_C with it
@@ -46,6 +47,7 @@ struct ElementState {
   Vec3<T> acceleration[nodes];  ///< dv/dt at the moving mesh node, at t_{n+alpha_m} [m/s^2]
   Vec3<T> mesh_velocity[4];     ///< v^ of the corners at t_{n+alpha_f} [m/s]
   Vec3<T> stream[nodes];        ///< b: velocity relative to the mesh at t_n [m/s]
+  T rate_squared[nodes];        ///< |dv/dt|^2 at t_n [m^2/s^4]
   T pressure[4];                ///< p at t_{n+alpha_f} [Pa]
 };
 
@@ -126,14 +128,18 @@ TUNICA_INLINE Flow<T> evaluate(const ElementState<T>& s, const TimeCoefficients&
   }
   f.mu = law.viscosity(shear_rate(mean));
   for (int i = 0; i < 3; ++i) f.viscous[i] = f.mu * (laplacian[i] + grad_div[i]);
-  T g_g(0.0), squares(0.0);
+  T g_g(0.0), squares(0.0), rates(0.0);
   for (int k = 1; k < 4; ++k)
     for (int l = 1; l < 4; ++l) g_g += f.gg[k][l] * f.gg[k][l];
-  for (int b = 0; b < nodes; ++b) squares += dot(s.stream[b], s.stream[b]);
+  for (int b = 0; b < nodes; ++b) {
+    squares += dot(s.stream[b], s.stream[b]);
+    rates += s.rate_squared[b];
+  }
   const T nu = f.mu * T(1.0 / parameters.density), trace_g = f.gg[1][1] + f.gg[2][2] + f.gg[3][3];
-  const T speed = T(1.0 / nodes) * squares + T(0.04 * time.speed * time.speed);
+  const T speed = T(1.0 / nodes) * squares + T(0.04 * time.speed * time.speed + 1e-12);
   f.divergence_weight = T(tau_c_factor * parameters.density) / trace_g;
-  f.common = T(1.0 / 3.0) * trace_g * speed + T(parameters.c_i) * nu * nu * g_g;
+  const T rate = T(4.0 * parameters.c_m * parameters.c_m / nodes) * rates / speed;
+  f.common = T(1.0 / 3.0) * trace_g * speed + rate + T(parameters.c_i) * nu * nu * g_g;
   return f;
 }
 

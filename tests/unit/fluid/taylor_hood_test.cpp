@@ -24,6 +24,7 @@ ElementState<T> convert(const ElementState<double>& s) {
     r.velocity[a] = test::convert<T>(s.velocity[a]);
     r.acceleration[a] = test::convert<T>(s.acceleration[a]);
     r.stream[a] = test::convert<T>(s.stream[a]);
+    r.rate_squared[a] = T(s.rate_squared[a]);
   }
   return r;
 }
@@ -41,6 +42,7 @@ ElementState<double> random_state(unsigned seed) {
     s.velocity[a] = random.vector(0.5);
     s.acceleration[a] = random.vector(10.0);
     s.stream[a] = random.vector(0.5);
+    s.rate_squared[a] = 100.0;
   }
   return s;
 }
