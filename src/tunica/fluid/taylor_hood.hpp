@@ -76,14 +76,12 @@ struct TangentRow {
 /// What does not depend on the row, once for each element.
 template <class T>
 struct Flow {
-  Vec3<T> g[4];         ///< gradients of the barycentric coordinates [1/m]
-  T volume;             ///< m^3
-  T gg[4][4];           ///< g_a . g_b
-  Vec3<T> grad_p;       ///< Pa/m
-  Vec3<T> viscous;      ///< div(2 mu eps) at constant mu [Pa/m]
-  T divergence_weight;  ///< tau_C times tau_M rho [kg/m]
-  T common;             ///< part of 1 / (rho tau_M)^2 that all points share [1/s^2]
-  T mu;                 ///< viscosity at the centroid [Pa s]
+  Vec3<T> g[4];  ///< gradients of the barycentric coordinates [1/m]
+  T volume;      ///< m^3
+  T gg[4][4];    ///< g_a . g_b
+  T trace_g;
+  T common;  ///< part of 1 / (rho tau_M)^2 without b.G b [1/s^2]
+  T mu;      ///< viscosity at the centroid [Pa s]
 };
 
 /// At one point of the rule.
@@ -94,8 +92,8 @@ struct PointFlow {
   Vec3<T> a, v;      ///< relative and absolute velocity
   Vec3<T> inertia;   ///< v. + a.grad v
   Vec3<T> b;         ///< direction of the stabilisation [m/s]
-  Vec3<T> residual;  ///< r_M
-  T divergence, pressure, mu, tau_m, tau_c, weight;
+  Vec3<T> along;     ///< b.grad v less its mean over the element [m/s^2]
+  T divergence, pressure, mu, weight;
 };
 
 template <class T, class Law>
@@ -104,30 +102,14 @@ TUNICA_INLINE Flow<T> evaluate(const ElementState<T>& s, const TimeCoefficients&
   Flow<T> f;
   const auto shape = fe::gradients(s.position);
   f.volume = shape.volume;
-  f.grad_p = fluid::detail::zero_vector<T>();
-  for (int a = 0; a < 4; ++a) {
-    f.g[a] = shape.dN[a];
-    fluid::detail::add(f.grad_p, s.pressure[a], f.g[a]);
-  }
+  for (int a = 0; a < 4; ++a) f.g[a] = shape.dN[a];
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) f.gg[a][b] = dot(f.g[a], f.g[b]);
   // Mean gradient (at the centroid) for the viscosity inside the stabilisation.
-  Mat3<T> mean = fluid::detail::zero_matrix<T>();
-  Vec3<T> laplacian = fluid::detail::zero_vector<T>(), grad_div = fluid::detail::zero_vector<T>();
-  for (int b = 0; b < nodes; ++b) {
-    const int m = fe::gradient_of[b][0], n = fe::gradient_of[b][1];
-    if (b < 4) {  // slope 0 at the centroid; second derivatives 4 g (x) g
-      fluid::detail::add(laplacian, T(4.0) * f.gg[m][m], s.velocity[b]);
-      fluid::detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[m]);
-    } else {
-      fluid::detail::add_outer(mean, s.velocity[b], f.g[m] + f.g[n]);
-      fluid::detail::add(laplacian, T(8.0) * f.gg[m][n], s.velocity[b]);
-      fluid::detail::add(grad_div, T(4.0) * dot(f.g[m], s.velocity[b]), f.g[n]);
-      fluid::detail::add(grad_div, T(4.0) * dot(f.g[n], s.velocity[b]), f.g[m]);
-    }
-  }
+  Mat3<T> mean = fluid::detail::zero_matrix<T>();  // corners have no gradient at the centroid
+  for (int b = 4; b < nodes; ++b)
+    fluid::detail::add_outer(mean, s.velocity[b], f.g[fe::gradient_of[b][0]] + f.g[fe::gradient_of[b][1]]);
   f.mu = law.viscosity(shear_rate(mean));
-  for (int i = 0; i < 3; ++i) f.viscous[i] = f.mu * (laplacian[i] + grad_div[i]);
   T g_g(0.0), squares(0.0), rates(0.0);
   for (int k = 1; k < 4; ++k)
     for (int l = 1; l < 4; ++l) g_g += f.gg[k][l] * f.gg[k][l];
@@ -135,18 +117,17 @@ TUNICA_INLINE Flow<T> evaluate(const ElementState<T>& s, const TimeCoefficients&
     squares += dot(s.stream[b], s.stream[b]);
     rates += s.rate_squared[b];
   }
-  const T nu = f.mu * T(1.0 / parameters.density), trace_g = f.gg[1][1] + f.gg[2][2] + f.gg[3][3];
+  const T nu = f.mu * T(1.0 / parameters.density);
   const T speed = T(1.0 / nodes) * squares + T(0.04 * time.speed * time.speed + 1e-12);
-  f.divergence_weight = T(tau_c_factor * parameters.density) / trace_g;
   const T rate = T(4.0 * parameters.c_m * parameters.c_m / nodes) * rates / speed;
-  f.common = T(1.0 / 3.0) * trace_g * speed + rate + T(parameters.c_i) * nu * nu * g_g;
+  f.trace_g = f.gg[1][1] + f.gg[2][2] + f.gg[3][3];
+  f.common = T(1.0 / 3.0) * f.trace_g * speed + rate + T(parameters.c_i) * nu * nu * g_g;
   return f;
 }
 
 template <class T, class Law>
 TUNICA_INLINE PointFlow<T> at_point(const ElementState<T>& s, const Flow<T>& f, const fe::QuadraticPoint& point,
-                                    const Parameters& parameters, const Law& law) {
-  const double rho = parameters.density;
+                                    const Law& law) {
   PointFlow<T> p;
   p.weight = T(point.weight) * f.volume;
   p.gradient = fluid::detail::zero_matrix<T>();
@@ -168,32 +149,52 @@ TUNICA_INLINE PointFlow<T> at_point(const ElementState<T>& s, const Flow<T>& f, 
   p.inertia = rate + p.gradient * p.a;
   p.divergence = trace(p.gradient);
   p.mu = law.viscosity(shear_rate(p.gradient));
-  p.residual = f.grad_p - f.viscous;
-  fluid::detail::add(p.residual, T(rho), p.inertia);
-  T metric(0.0);
-  for (int k = 1; k < 4; ++k) {
-    const T along = dot(f.g[k], p.b);
-    metric += along * along;
-  }
-  const T root = sqrt(f.common + metric + T(1e-12));
-  p.tau_m = T(1.0 / rho) / root;
-  p.tau_c = f.divergence_weight * root;
+  p.along = p.gradient * p.b;
   return p;
+}
+
+/// All points, and what they share of the stabilisation.
+template <class T>
+struct PointFlows {
+  PointFlow<T> at[points];
+  T tau_m;  ///< [s m^3/kg]
+  T tau_c;  ///< [Pa s]
+};
+
+template <class T, class Law>
+TUNICA_INLINE void at_points(const ElementState<T>& s, const Flow<T>& f, const Parameters& parameters, const Law& law,
+                             PointFlows<T>& flows) {
+  Vec3<T> mean = fluid::detail::zero_vector<T>();
+  T metric(0.0);
+  for (int q = 0; q < points; ++q) {
+    const auto& point = fe::quadratic_fourteen_points[q];
+    PointFlow<T>& p = flows.at[q] = at_point(s, f, point, law);
+    fluid::detail::add(mean, T(point.weight), p.along);
+    for (int k = 1; k < 4; ++k) {
+      const T along = dot(f.g[k], p.b);
+      metric += T(point.weight) * along * along;
+    }
+  }
+  for (auto& p : flows.at) p.along = p.along - mean;
+  const T root = sqrt(f.common + metric + T(1e-12));
+  flows.tau_m = T(1.0 / parameters.density) / root;
+  flows.tau_c = T(tau_c_factor * parameters.density) * root / f.trace_g;
 }
 
 /// Integrals of one point, added to the residual.
 template <class T>
-TUNICA_INLINE void add_residual(const PointFlow<T>& p, const fe::QuadraticPoint& point, double rho,
-                                ElementVector<T>& r) {
+TUNICA_INLINE void add_residual(const PointFlows<T>& flows, int q, double rho, ElementVector<T>& r) {
+  const PointFlow<T>& p = flows.at[q];
+  const auto& point = fe::quadratic_fourteen_points[q];
   Vec3<T> force = T(rho) * p.inertia;  // with N_a
   fluid::detail::add(force, T(0.5 * rho) * p.divergence, p.v);
   for (int i = 0; i < 3; ++i) force[i] = p.weight * force[i];
   Mat3<T> stress;  // with grad N_a
-  const Vec3<T> stream = (p.weight * T(rho) * p.tau_m) * p.b;
+  const Vec3<T> stream = (p.weight * T(rho * rho) * flows.tau_m) * p.b;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      stress(i, j) = p.weight * p.mu * (p.gradient(i, j) + p.gradient(j, i)) + p.residual[i] * stream[j];
-  for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * (p.tau_c * p.divergence - p.pressure);
+      stress(i, j) = p.weight * p.mu * (p.gradient(i, j) + p.gradient(j, i)) + p.along[i] * stream[j];
+  for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * (flows.tau_c * p.divergence - p.pressure);
   for (int a = 0; a < nodes; ++a) {
     fluid::detail::add(r.momentum[a], T(point.N[a]), force);
     r.momentum[a] = r.momentum[a] + stress * p.dN[a];
@@ -213,8 +214,9 @@ inline void residual(const ElementState<T>& state, const TimeCoefficients& time,
                      const Law& law, ElementVector<T>& r) {
   set_zero(r);
   const Flow<T> f = evaluate(state, time, parameters, law);
-  for (const auto& point : fe::quadratic_fourteen_points)
-    add_residual(at_point(state, f, point, parameters, law), point, parameters.density, r);
+  PointFlows<T> flows;
+  at_points(state, f, parameters, law, flows);
+  for (int q = 0; q < points; ++q) add_residual(flows, q, parameters.density, r);
 }
 
 /// Energy of an element [J] and the power that leaves its resolved flow [W].
@@ -228,13 +230,14 @@ inline Energy<T> energy(const ElementState<T>& state, const TimeCoefficients& ti
                         const Law& law) {
   const Flow<T> f = evaluate(state, time, parameters, law);
   Energy<T> sum{f.volume, T(0.0), T(0.0), T(0.0)};
-  for (const auto& point : fe::quadratic_fourteen_points) {
-    const PointFlow<T> p = at_point(state, f, point, parameters, law);
+  PointFlows<T> flows;
+  at_points(state, f, parameters, law, flows);
+  for (const PointFlow<T>& p : flows.at) {
     const T gamma = shear_rate(p.gradient);
     sum.kinetic += T(0.5 * parameters.density) * p.weight * dot(p.v, p.v);
     sum.viscous += p.weight * p.mu * gamma * gamma;
-    sum.numerical += p.weight * T(parameters.density) * p.tau_m * dot(p.gradient * p.b, p.residual) +
-                     p.weight * p.tau_c * p.divergence * p.divergence;
+    sum.numerical += p.weight * (T(parameters.density * parameters.density) * flows.tau_m * dot(p.along, p.along) +
+                                 flows.tau_c * p.divergence * p.divergence);
   }
   return sum;
 }
@@ -246,74 +249,41 @@ struct ShapeTangent {
   Vec3<T> continuity[4][4];
 };
 
-namespace detail {
-
-using namespace fluid::detail;
-
-/// v_m,kl of each component m: constant in the element.
-template <class T>
-TUNICA_INLINE void second_derivatives(const ElementState<T>& s, const Flow<T>& f, Mat3<T> (&second)[3]) {
-  for (auto& m : second) m = zero_matrix<T>();
-  for (int b = 0; b < nodes; ++b) {
-    const Vec3<T>&g = f.g[fe::gradient_of[b][0]], &h = f.g[fe::gradient_of[b][1]];
-    for (int m = 0; m < 3; ++m) {
-      const T v = T(b < 4 ? 2.0 : 4.0) * s.velocity[b][m];  // of a corner g = h, and both terms below are one
-      add_outer(second[m], v * g, h);
-      add_outer(second[m], v * h, g);
-    }
-  }
-}
-
-/// d(div(2 mu eps))_i / d(axis j) of a corner with c_x grad l = `along`, over mu.
-template <class T>
-TUNICA_INLINE Vec3<T> viscous_variation(const Mat3<T> (&second)[3], const Vec3<T>& along, int j) {
-  Vec3<T> d;
-  T of_divergence(0.0);
-  for (int k = 0; k < 3; ++k) of_divergence += second[k](k, j);
-  for (int i = 0; i < 3; ++i) {
-    d[i] = -of_divergence * along[i];
-    for (int k = 0; k < 3; ++k) d[i] -= (T(2.0) * second[i](j, k) + second[k](j, i)) * along[k];
-  }
-  return d;
-}
-
-}  // namespace detail
-
 /// With the corner b moving along j, dN_a,k -> - N_a,j l_b,k, dV -> V l_b,j, d(grad v)_ik = - v_i,j l_b,k, and v^
 /// changes by l_b along j. Held fixed are tau_M, tau_C and b. `r` is the residual of the element, moves[b] = 1 where b
 /// follows the wall, else 0.
 template <class Law, class T>
-inline void shape_tangent(const ElementState<T>& state, const Flow<T>& f, const PointFlow<T> (&at)[points],
-                          const Law& law, double rho, const MotionCoefficients& motion, const T (&moves)[4],
-                          const ElementVector<T>& r, ShapeTangent<T>& k) {
-  Mat3<T> second[3];
-  detail::second_derivatives(state, f, second);
+inline void shape_tangent(const Flow<T>& f, const PointFlows<T>& flows, const Law& law, double rho,
+                          const MotionCoefficients& motion, const T (&moves)[4], const ElementVector<T>& r,
+                          ShapeTangent<T>& k) {
   for (int b = 0; b < 4; ++b) {
     const Vec3<T> along = (T(motion.position) * moves[b]) * f.g[b];
     for (int a = 0; a < nodes; ++a)
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) k.momentum[a][b](i, j) = along[j] * r.momentum[a][i];
     for (int a = 0; a < 4; ++a) k.continuity[a][b] = r.continuity[a] * along;
-    Vec3<T> viscous[3];
-    for (int j = 0; j < 3; ++j) viscous[j] = f.mu * detail::viscous_variation(second, along, j);
+    Mat3<T> mean = fluid::detail::zero_matrix<T>();  // of the variation of b.grad v, but for its sign
+    for (int q = 0; q < points; ++q)
+      mean = mean + (T(fe::quadratic_fourteen_points[q].weight) * dot(flows.at[q].b, along)) * flows.at[q].gradient;
     for (int q = 0; q < points; ++q) {
       const auto& point = fe::quadratic_fourteen_points[q];
-      const PointFlow<T>& p = at[q];
+      const PointFlow<T>& p = flows.at[q];
       const T relative = T(motion.mesh_velocity * point.barycentric[b]) * moves[b] + dot(p.a, along);
-      const Vec3<T> stream = (p.weight * T(rho) * p.tau_m) * p.b;
+      const Vec3<T> stream = (p.weight * T(rho * rho) * flows.tau_m) * p.b;
+      const T b_along = dot(p.b, along);
       const Mat3<T> twice_strain = p.gradient + transpose(p.gradient);
       Vec3<T> pulled;  // stress . along
-      const T pressure = p.tau_c * p.divergence - p.pressure, stream_along = dot(stream, along);
+      const T pressure = flows.tau_c * p.divergence - p.pressure, stream_along = dot(stream, along);
       for (int i = 0; i < 3; ++i) {
-        pulled[i] = p.residual[i] * stream_along + p.weight * pressure * along[i];
+        pulled[i] = p.along[i] * stream_along + p.weight * pressure * along[i];
         for (int l = 0; l < 3; ++l) pulled[i] += p.weight * p.mu * twice_strain(i, l) * along[l];
       }
       for (int j = 0; j < 3; ++j) {
         const Vec3<T> column{{p.gradient(0, j), p.gradient(1, j), p.gradient(2, j)}};
         const T divergence = -dot(column, along);
         const Vec3<T> inertia = (-relative) * column;
-        Vec3<T> residual = (-f.grad_p[j]) * along - viscous[j];
-        fluid::detail::add(residual, T(rho), inertia);
+        const Vec3<T> mean_column{{mean(0, j), mean(1, j), mean(2, j)}};
+        const Vec3<T> fluctuation = mean_column - b_along * column;
         Vec3<T> force = (p.weight * T(rho)) * inertia;
         fluid::detail::add(force, T(0.5 * rho) * p.weight * divergence, p.v);
         T slope(0.0);
@@ -326,8 +296,8 @@ inline void shape_tangent(const ElementState<T>& state, const Flow<T>& f, const 
           for (int l = 0; l < 3; ++l)
             stress(i, l) =
                 p.weight * (slope * twice_strain(i, l) - p.mu * (column[i] * along[l] + column[l] * along[i])) +
-                residual[i] * stream[l];
-        for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * p.tau_c * divergence;
+                fluctuation[i] * stream[l];
+        for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * flows.tau_c * divergence;
         for (int a = 0; a < nodes; ++a) {
           const Vec3<T> d = stress * p.dN[a];
           for (int i = 0; i < 3; ++i)
@@ -349,49 +319,42 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
   const double rho = parameters.density;
   set_zero(r);
   const Flow<T> f = evaluate(state, time, parameters, law);
-  PointFlow<T> at[points];
+  PointFlows<T> flows;
+  at_points(state, f, parameters, law, flows);
+  const auto& at = flows.at;
   T transport[points][nodes];  // m N_b + c (a.grad N_b + 1/2 (div v) N_b)
-  T stream[points][nodes];     // rho tau_M w b.grad N_a
+  T stream[points][nodes];     // b.grad N_b less its mean
   const T c(time.velocity), m(time.acceleration);
   for (int q = 0; q < points; ++q) {
     const auto& point = fe::quadratic_fourteen_points[q];
-    at[q] = at_point(state, f, point, parameters, law);
-    add_residual(at[q], point, rho, r);
+    add_residual(flows, q, rho, r);
     for (int b = 0; b < nodes; ++b) {
       const T along = dot(at[q].a, at[q].dN[b]);
       transport[q][b] = m * T(point.N[b]) + c * along;
-      stream[q][b] = (T(rho) * at[q].tau_m * at[q].weight) * dot(at[q].b, at[q].dN[b]);
+      stream[q][b] = dot(at[q].b, at[q].dN[b]);
     }
   }
-  ShapeTangent<T> shape;
-  if (moves != nullptr) shape_tangent(state, f, at, law, rho, motion, *moves, r, shape);
-  // div(2 mu eps) of a unit velocity of node b along j: h_b I + H_b, times mu.
-  T laplacian[nodes];
-  Mat3<T> hessian[nodes];
   for (int b = 0; b < nodes; ++b) {
-    const int i0 = fe::gradient_of[b][0], i1 = fe::gradient_of[b][1];
-    laplacian[b] = f.mu * T(b < 4 ? 4.0 : 8.0) * f.gg[i0][i1];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        hessian[b](i, j) = f.mu * (b < 4 ? T(4.0) * f.g[i0][i] * f.g[i0][j]
-                                         : T(4.0) * (f.g[i0][i] * f.g[i1][j] + f.g[i1][i] * f.g[i0][j]));
+    T mean(0.0);
+    for (int q = 0; q < points; ++q) mean += T(fe::quadratic_fourteen_points[q].weight) * stream[q][b];
+    for (int q = 0; q < points; ++q) stream[q][b] -= mean;
   }
+  ShapeTangent<T> shape;
+  if (moves != nullptr) shape_tangent(f, flows, law, rho, motion, *moves, r, shape);
   for (int a = 0; a < nodes; ++a) {
     TangentRow<T> row;
     for (int b = 0; b < nodes; ++b) row.velocity[b] = fluid::detail::zero_matrix<T>();
     for (int b = 0; b < 4; ++b) row.pressure[b] = fluid::detail::zero_vector<T>();
     for (int b = 0; b < nodes; ++b) row.continuity[b] = fluid::detail::zero_vector<T>();
-    T sum_stream(0.0);
     T isotropic[nodes];
     for (int b = 0; b < nodes; ++b) isotropic[b] = T(0.0);
     for (int q = 0; q < points; ++q) {
       const auto& point = fe::quadratic_fourteen_points[q];
       const PointFlow<T>& p = at[q];
       const T test = p.weight * T(rho * point.N[a]);
-      const T both = test + T(rho) * stream[q][a];
-      sum_stream += stream[q][a];
+      const T streamline = (c * T(rho * rho) * flows.tau_m * p.weight) * stream[q][a];
       const T half = T(0.5) * c * test * p.divergence;
-      Mat3<T> by_n = (c * both) * p.gradient;  // stands with N_b
+      Mat3<T> by_n = (c * test) * p.gradient;  // stands with N_b
       const T viscous = c * p.mu * p.weight;
       const Vec3<T> mu_a = viscous * p.dN[a], div_v = (T(0.5) * c * test) * p.v;
       if constexpr (!Law::constant) {
@@ -401,25 +364,19 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
         for (int b = 0; b < nodes; ++b) fluid::detail::add_outer(row.velocity[b], strain_a, twice_strain * p.dN[b]);
       }
       for (int b = 0; b < nodes; ++b) {
-        isotropic[b] += both * transport[q][b] + half * T(point.N[b]) + dot(mu_a, p.dN[b]);
+        isotropic[b] += test * transport[q][b] + streamline * stream[q][b] + half * T(point.N[b]) + dot(mu_a, p.dN[b]);
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j)
             row.velocity[b](i, j) += T(point.N[b]) * by_n(i, j) + mu_a[j] * p.dN[b][i] +
-                                     (div_v[i] + c * p.tau_c * p.weight * p.dN[a][i]) * p.dN[b][j];
+                                     (div_v[i] + c * flows.tau_c * p.weight * p.dN[a][i]) * p.dN[b][j];
       }
       for (int b = 0; b < 4; ++b) fluid::detail::add(row.pressure[b], -p.weight * T(point.barycentric[b]), p.dN[a]);
       if (a < 4)
         for (int b = 0; b < nodes; ++b)
           fluid::detail::add(row.continuity[b], c * p.weight * T(point.barycentric[a]), p.dN[b]);
     }
-    for (int b = 0; b < 4; ++b) fluid::detail::add(row.pressure[b], sum_stream, f.g[b]);
-    for (int b = 0; b < nodes; ++b) {
-      const T diagonal = isotropic[b] - c * sum_stream * laplacian[b];
-      for (int i = 0; i < 3; ++i) {
-        row.velocity[b](i, i) += diagonal;
-        for (int j = 0; j < 3; ++j) row.velocity[b](i, j) -= c * sum_stream * hessian[b](i, j);
-      }
-    }
+    for (int b = 0; b < nodes; ++b)
+      for (int i = 0; i < 3; ++i) row.velocity[b](i, i) += isotropic[b];
     if (moves != nullptr)
       for (int b = 0; b < 4; ++b) {
         row.velocity[b] = row.velocity[b] + shape.momentum[a][b];
