@@ -1,28 +1,27 @@
 // Flow on a moving quadratic tetrahedron: quadratic velocity, linear pressure (Taylor & Hood 1973), streamline
-// stabilisation with the complete residual (docs/theory.md, eq. 2.5).
+// stabilisation of fluctuations (docs/theory.md, eqs 2.5, 2.6).
 //
 // Find (v, p) so that for all (w, q), with a = v - v^ the velocity relative to the mesh,
 //   (w, rho (v. + a.grad v + 1/2 (div v) v)) + (grad w, 2 mu eps - p I) + (q, div v)
-//   + sum_e (tau_M rho b.grad w, r_M) + (tau_C div w, div v) = boundary terms,
-//   r_M = rho (v. + a.grad v) + grad p - div(2 mu eps),
-//   tau_M = [rho sqrt(b.G b + s^2 tr G / 3 + (2 c_M)^2 mean_e |v.|^2 / s^2 + c_I (mu / rho)^2 G:G)]^-1,
-//   s^2 = mean_e |b|^2 + (U / 5)^2,
-//   tau_C = kappa / (tau_M tr G),
-// with b = a and v. at the start of the step.
+//   + sum_e (tau_M rho^2 k(b.grad w), k(b.grad v)) + (tau_C div w, div v) = boundary terms,
+//   tau_M = [rho sqrt(mean_e b.G b + s^2 tr G / 3 + (2 c_M)^2 mean_e |v.|^2 / s^2 + c_I (mu / rho)^2 G:G)]^-1,
+//   s^2 = mean_e |b|^2 + (U / 5)^2,   tau_C = kappa / (tau_M tr G),
+// with k(f) = f - mean_e f, and b = a and v. at the start of the step.
 //
 // The pair satisfies the inf-sup condition, so no subscale carries mass: div v = 0 holds against every linear q. The
 // term with 1/2 (div v) keeps convection from making energy where div v does not vanish in points (Temam 1968).
 //
 // tau_M does not know the time step: what a steady flow loses must not depend on it. In its place stand the times in
 // which blood crosses the element and in which its velocity changes; a fifth of the speed U of the whole flow keeps
-// tau_M smooth where blood stagnates (docs/theory.md has what this does to a jet). As b is known, the stabilisation is
-// linear in the unknowns: with b = a Newton's method fails when a flow starts at once.
+// tau_M smooth where blood stagnates. As b is known, the stabilisation is linear in the unknowns: with b = a Newton's
+// method fails when a flow starts at once. It holds no rate: with that of the complete residual the equations lose
+// their definiteness where pressure drives blood in, at steps far below tau_M.
 //
 // tau_C makes the velocity robust against the pressure: that of a jet, rho |v|^2 / 2, is far from linear in an element,
 // and what linear pressure cannot balance drives v apart, by an error over mu without tau_C and over tau_C with it
 // (Olshanskii et al. 2009).
 //
-// Corners alone move the mesh: positions and v^ are linear. div(2 mu eps) is taken at constant mu.
+// Corners alone move the mesh: positions and v^ are linear.
 //
 // All functions are templated on T = double, Dual (derivative checks) or Pack (one element per lane).
 #pragma once
@@ -35,9 +34,8 @@ namespace tunica::fluid::taylor_hood {
 inline constexpr int nodes = fe::quadratic_nodes;
 inline constexpr int points = 14;
 
-/// kappa of tau_C. On a jet through an orifice, 1 to 2 give its pressure loss within 6 to 13 % at three elements
-/// across.
-inline constexpr double tau_c_factor = 1.5;
+/// kappa of tau_C: 1.5 raises the pressure loss of a jet through an orifice by 3 (six elements across) and 8 % (three).
+inline constexpr double tau_c_factor = 0.3;
 
 /// What the kernel needs to know of an element.
 template <class T>
@@ -309,7 +307,7 @@ inline void shape_tangent(const Flow<T>& f, const PointFlows<T>& flows, const La
   }
 }
 
-/// Residual and tangent with respect to (v_{n+1}, p), exact but for the viscosity inside tau_M and r_M. `row(a,
+/// Residual and tangent with respect to (v_{n+1}, p), exact but for the viscosity inside tau_M. `row(a,
 /// TangentRow)` takes the rows one after another, so that a row stays in the cache. `moves` (or null): see
 /// shape_tangent.
 template <class T, class Law, class TakeRow>

@@ -103,6 +103,14 @@ TEST(Case, EveryAnalysisNeedsItsPartsAndNoOthers) {
   EXPECT_FALSE(wall.mesh_motion);
 }
 
+TEST(Case, QuadraticElementsHaveNoPrestress) {
+  EXPECT_TRUE(problems_of(coupled() + "elements: quadratic\n").empty());
+  EXPECT_TRUE(mentions(
+      problems_of(coupled() + "elements: quadratic\nprestress: {flow: {pressure: 80 mmHg, inflow: 80 ml/s}}\n"),
+      "elements", "prestress"));
+  EXPECT_TRUE(mentions(problems_of(coupled() + "elements: cubic\n"), "elements", "quadratic"));
+}
+
 TEST(Case, MeshesComeFromExactlyOneSource) {
   const std::string rest = fluid_part + time_part + "analysis: flow\nboundary: {a: no_slip}\n";
   EXPECT_TRUE(mentions(problems_of(rest + "meshes: {}"), "meshes", "no mesh is given"));

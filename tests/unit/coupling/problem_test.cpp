@@ -80,9 +80,13 @@ TEST(Problem, WithoutLoadsStaysAtRest) {
     EXPECT_EQ(*field, std::vector<double>(at(mesh.nodes()), 0.0));
 }
 
-TEST(Problem, StepIsTheSameOnAnyNumberOfRanks) {
-  const auto parts = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
-  const auto whole = distributed::distribute(test::fsi_tube(), MPI_COMM_SELF);
+class ProblemOfElements : public testing::TestWithParam<bool> {};  // quadratic?
+INSTANTIATE_TEST_SUITE_P(Elements, ProblemOfElements, testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "quadratic" : "linear"; });
+
+TEST_P(ProblemOfElements, StepIsTheSameOnAnyNumberOfRanks) {
+  const auto parts = distributed::distribute(test::fsi_tube(GetParam()), MPI_COMM_WORLD);
+  const auto whole = distributed::distribute(test::fsi_tube(GetParam()), MPI_COMM_SELF);
   auto input = test::fsi_input(test::pressure(1000.0), windkessel());
   input.newton.relative_tolerance = 1e-8;
   input.newton.mesh_tolerance = 1e-9;
@@ -268,8 +272,8 @@ TEST(Problem, NodalForcesActLikeATractionAndThroughTwinsOnHosts) {
   EXPECT_THROW(forced.set_nodal_forces(std::span(forces).first(4)), std::invalid_argument);
 }
 
-TEST(Problem, PartialResidualsBalanceAtTheInterface) {
-  const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
+TEST_P(ProblemOfElements, PartialResidualsBalanceAtTheInterface) {
+  const auto mesh = distributed::distribute(test::fsi_tube(GetParam()), MPI_COMM_WORLD);
   auto input = test::fsi_input(test::pressure(1000.0), test::pressure(0.0));
   input.newton.relative_tolerance = 1e-9;
   Problem problem(mesh, input);

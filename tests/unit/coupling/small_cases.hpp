@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tunica/coupling/problem.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "unit/assembly/numbers.hpp"
@@ -28,7 +29,11 @@ inline mesh::TubeSizes tube_sizes(double wall_thickness) {
           .cells_through_wall = 2};
 }
 inline mesh::MeshData fluid_tube() { return mesh::tube(tube_sizes(0.0)); }
-inline mesh::MeshData fsi_tube() { return mesh::tube(tube_sizes(0.002)); }
+inline mesh::MeshData fsi_tube(bool quadratic = false) {
+  auto data = mesh::tube(tube_sizes(0.002));
+  if (quadratic) mesh::add_edge_nodes(data);
+  return data;
+}
 
 inline fluid::Parameters blood() { return {.density = 1060, .viscosity = fluid::Newtonian{4e-3}}; }
 

@@ -116,7 +116,7 @@ TEST(TaylorHood, TheTangentKnowsTheCornersThatFollowTheWall) {
   }
 }
 
-// Held fixed is the viscosity inside tau_M and r_M only.
+// Held fixed is the viscosity inside tau_M only.
 TEST(TaylorHood, WithAVaryingViscosityTheTangentIsNearlyTheDerivative) {
   EXPECT_LT(tangent_error(random_state(1), CarreauYasuda{}), 1e-3);
   EXPECT_LT(tangent_error(random_state(1), Casson{}), 2e-3);
