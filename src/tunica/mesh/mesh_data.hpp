@@ -51,14 +51,14 @@ inline constexpr int tetrahedron_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, 
 struct MeshData {
   std::vector<Vec3<double>> points;                     ///< m
   std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< corners, positive orientation
-  /// Of each tetrahedron: nodes in the middle of its edges (tetrahedron_edges). Empty for linear elements;
-  /// edge_nodes.hpp makes them.
-  std::vector<std::array<std::int64_t, 6>> edges{};
-  std::vector<RegionData> regions;  ///< at most one lumen, any number of wall regions
+  std::vector<RegionData> regions;                      ///< at most one lumen, any number of wall regions
   std::vector<FaceData> faces;
   std::vector<ElementField> fields;                          ///< of all tetrahedra
   std::vector<NodeField> node_fields;                        ///< of all points
   std::vector<std::pair<std::int64_t, std::int64_t>> twins;  ///< (wall node, lumen node hosting its motion)
+  /// Of each tetrahedron: nodes in the middle of its edges (tetrahedron_edges). Empty for linear elements;
+  /// edge_nodes.hpp makes them.
+  std::vector<std::array<std::int64_t, 6>> edges{};
 };
 
 }  // namespace tunica::mesh
