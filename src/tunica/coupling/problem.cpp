@@ -237,6 +237,21 @@ double Problem::largest_speed(const State& state) const {
   return parallel::global_max(mesh_.comm, largest);
 }
 
+// What the stabilisation of quadratic elements takes from the start of the step.
+void Problem::remember_start(const State& state, const State& next) {
+  flow_speed_ = largest_speed(next);
+  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = -state.displacement_rate[k];
+  for (const auto& edge : edges_)
+    if (edge.lumen) set_to_mean(stream_, edge);
+  for (std::size_t k = 0; k < stream_.size(); k += 4) {
+    stream_[k + 3] = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      stream_[k + c] += state.velocity_pressure[k + c];
+      stream_[k + 3] += state.acceleration[k + c] * state.acceleration[k + c];
+    }
+  }
+}
+
 void Problem::prescribe_mesh(State& state) const {
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i) {
     const Vec3<double> u = input_.mesh_displacement(mesh_.points[i], state.time);
@@ -482,17 +497,7 @@ StepReport Problem::advance(State& state, double dt) {
   next.dt = dt;
   ++next.step;
   boundaries_.prescribe(next.time, next.velocity_pressure);
-  flow_speed_ = largest_speed(next);
-  for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = -state.displacement_rate[k];
-  for (const auto& edge : edges_)
-    if (edge.lumen) set_to_mean(stream_, edge);
-  for (std::size_t k = 0; k < stream_.size(); k += 4) {
-    stream_[k + 3] = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      stream_[k + c] += state.velocity_pressure[k + c];
-      stream_[k + 3] += state.acceleration[k + c] * state.acceleration[k + c];
-    }
-  }
+  if (mesh_.quadratic) remember_start(state, next);
   follow_velocity(state, next, scheme);
   // Until the first increment the mesh goes on as it moved; the interface is moved by its velocity.
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)

@@ -103,7 +103,8 @@ class Problem {
   /// Fields at t_{n+alpha_f} of the last evaluation.
   FieldsView fields() const;
   const Boundaries& boundaries() const { return boundaries_; }
-  /// Largest speed [m/s] of the blood when the last step began, prescribed velocities at its end included.
+  /// Largest speed [m/s] of the blood when the last step began, prescribed velocities at its end included; quadratic
+  /// elements only.
   double flow_speed() const { return flow_speed_; }
   /// Only with a wall.
   const WallModel& wall_model() const;
@@ -129,6 +130,7 @@ class Problem {
   void interpolate_pressure(State& state) const;
   void set_to_mean(std::span<double> field, const Edge& edge) const;
   double largest_speed(const State& state) const;
+  void remember_start(const State& state, const State& next);
   void prescribe_mesh(State& state) const;
   int move_mesh(const State& old_state, State& next, const assembly::TimeScheme& scheme);
   void synchronise_twins(State& state) const;

@@ -320,7 +320,7 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
   PointFlows<T> flows;
   at_points(state, f, parameters, law, flows);
   const auto& at = flows.at;
-  T transport[points][nodes];  // m N_b + c (a.grad N_b + 1/2 (div v) N_b)
+  T transport[points][nodes];  // m N_b + c a.grad N_b
   T stream[points][nodes];     // b.grad N_b less its mean
   const T c(time.velocity), m(time.acceleration);
   for (int q = 0; q < points; ++q) {
