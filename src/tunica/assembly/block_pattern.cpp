@@ -4,6 +4,8 @@
 #include <cassert>
 #include <optional>
 
+#include "tunica/distributed/element_nodes.hpp"
+
 namespace tunica::assembly {
 
 namespace {
@@ -19,9 +21,7 @@ using CoupledNodes = std::array<std::int32_t, 20>;
 int coupled_nodes(const distributed::DistributedMesh& mesh, const distributed::Region& region, std::size_t e,
                   CoupledNodes& nodes) {
   int n = 0;
-  for (const auto node : region.elements[e]) nodes[n++] = node;
-  if (mesh.quadratic)
-    for (const auto node : region.edges[e]) nodes[n++] = node;
+  distributed::for_each_node(region, e, [&](std::int32_t node) { nodes[n++] = node; });
   const int own = n;
   for (int a = 0; a < own; ++a)
     if (mesh.host[nodes[a]] != nodes[a]) nodes[n++] = mesh.host[nodes[a]];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tunica/distributed/element_nodes.hpp"
+
 namespace tunica::assembly {
 
 namespace {
@@ -45,8 +47,8 @@ ElementBatches make_batches(const distributed::DistributedMesh& mesh, const dist
     for (std::size_t lane = 0; lane < w; ++lane) {
       const std::size_t position = std::min(batch * w + lane, static_cast<std::size_t>(result.elements) - 1);
       const auto e = static_cast<std::size_t>(result.elements_of_region[position]);
-      std::copy(region.elements[e].begin(), region.elements[e].end(), nodes.begin());
-      if (mesh.quadratic) std::copy(region.edges[e].begin(), region.edges[e].end(), nodes.begin() + 4);
+      std::size_t next = 0;
+      distributed::for_each_node(region, e, [&](std::int32_t node) { nodes[next++] = node; });
       for (std::size_t a = 0; a < count; ++a) {
         result.nodes[(batch * count + a) * w + lane] = nodes[a];
         if (split) result.hosts[(batch * count + a) * w + lane] = mesh.host[nodes[a]];

@@ -68,14 +68,13 @@ void SchurPreconditioner::make_laplacians() {
   schur_values_.resize(static_cast<std::size_t>(pressure_pattern_.blocks()) + 1);
   nodal_volume_.assign(pattern_.columns_count, 0.0);
   follows_.assign(pattern_.columns_count, 0);
-  std::vector<char> seen(pattern_.columns_count, 0);
   for (const auto& region : mesh_.regions)
     for (std::size_t e = 0; e < region.elements.size(); ++e) {
       const auto& element = region.elements[e];
       Vec3<double> x[4];
       for (int a = 0; a < 4; ++a) x[a] = mesh_.points[element[a]];
       if (region.kind == mesh::RegionKind::wall)
-        for (const auto node : element) follows_[node] = 1;
+        distributed::for_each_node(region, e, [&](std::int32_t node) { follows_[node] = 1; });
       const auto shape = fe::gradients(x);
       Laplacian& laplacian = laplacians_.emplace_back();
       laplacian.count = mesh_.quadratic ? 6 : 4;
@@ -90,14 +89,8 @@ void SchurPreconditioner::make_laplacians() {
           laplacian.entries[k++] = static_cast<float>(shape.volume * dot(shape.dN[a], shape.dN[b]));
         for (int b = 0; b < 4; ++b) laplacian.slots[4 * a + b] = pressure_pattern_.slot(element[a], element[b]);
       }
-      if (!mesh_.quadratic) continue;
-      for (int k = 0; k < 6; ++k) {
-        const auto node = region.edges[e][k];
-        if (region.kind == mesh::RegionKind::wall) follows_[node] = 1;
-        if (std::exchange(seen[node], 1) == 0)
-          edges_.push_back({node, {element[mesh::tetrahedron_edges[k][0]], element[mesh::tetrahedron_edges[k][1]]}});
-      }
     }
+  edges_ = distributed::edge_nodes(mesh_);
   mesh_.halo.update(nodal_volume_, 1);
 }
 

@@ -16,7 +16,7 @@
 
 #include "tunica/assembly/block_kernels.hpp"
 #include "tunica/assembly/block_matrix.hpp"
-#include "tunica/distributed/distributed_mesh.hpp"
+#include "tunica/distributed/element_nodes.hpp"
 #include "tunica/parallel/petsc.hpp"
 
 namespace tunica::assembly {
@@ -76,12 +76,9 @@ class SchurPreconditioner {
   BlockPattern pressure_pattern_;
   std::vector<std::int32_t> pressure_source_;  ///< [entry of pressure_pattern_]: block of the matrix
   std::vector<Laplacian> laplacians_;
-  std::vector<char> follows_;         ///< [local node]: belongs to the wall (twins included, hosts not)
-  std::vector<double> nodal_volume_;  ///< [local node][1], m^3
-  struct Edge {
-    std::int32_t node, ends[2];
-  };
-  std::vector<Edge> edges_;  ///< nodes on edges, local; empty for linear elements
+  std::vector<char> follows_;                 ///< [local node]: belongs to the wall (twins included, hosts not)
+  std::vector<double> nodal_volume_;          ///< [local node][1], m^3
+  std::vector<distributed::EdgeNode> edges_;  ///< nodes on edges, local; empty for linear elements
   std::vector<double> schur_values_;
   std::vector<double> inverse_diagonal_;  ///< [owned node], 1 / (diagonal of K with the row sum of the mass)
   parallel::MatHandle schur_;

@@ -27,14 +27,9 @@ Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.me
   const auto& mesh = problem.mesh();
   for (const auto& region : mesh.regions)
     if (region.kind == RegionKind::wall)
-      for (const auto& element : region.elements)
-        for (const auto node : element)
-          if (node < mesh.owned_nodes) kind_[node] = NodeKind::wall;
-  for (const auto& region : mesh.regions)
-    if (region.kind == RegionKind::wall)
-      for (const auto& edges : region.edges)
-        for (const auto node : edges)
-          if (node < mesh.owned_nodes) kind_[node] = NodeKind::wall;
+      distributed::for_each_node(region, [&](std::int32_t node) {
+        if (node < mesh.owned_nodes) kind_[node] = NodeKind::wall;
+      });
   std::set<std::string> interface;
   for (const auto& [lumen, wall] : problem.input().boundary.interfaces) interface.insert({lumen, wall});
   std::vector<char> on_interface(kind_.size(), 0), on_other(kind_.size(), 0);
@@ -99,9 +94,7 @@ void Monitors::quadratic_lumen_elements(const distributed::Region& region, doubl
   const fluid::Parameters& parameters = *problem_.input().fluid;
   for (std::int32_t e = 0; e < region.owned_elements; ++e) {
     const auto& corners = region.elements[e];
-    std::array<std::int32_t, 10> nodes;
-    std::copy(corners.begin(), corners.end(), nodes.begin());
-    std::copy(region.edges[e].begin(), region.edges[e].end(), nodes.begin() + 4);
+    const auto nodes = distributed::quadratic_nodes(region, static_cast<std::size_t>(e));
     th::ElementState<double> s;
     gather(f.position, corners, s.position);
     gather(f.velocity_pressure, nodes, s.velocity);
@@ -165,8 +158,7 @@ void Monitors::quadratic_wall_elements(std::size_t index, double (&sums)[3]) con
   for (std::int32_t e = 0; e < region.owned_elements; ++e) {
     const auto s = quadratic_wall_element(mesh, model, f, index, e);
     Vec3<double> velocity[wq::nodes];
-    for (std::size_t a = 0; a < 10; ++a)
-      velocity[a] = vector_at(f.velocity_pressure, a < 4 ? region.elements[e][a] : region.edges[e][a - 4]);
+    gather(f.velocity_pressure, distributed::quadratic_nodes(region, static_cast<std::size_t>(e)), velocity);
     const auto [law, body] = model.material(index, e);
     const auto S0 = model.prestress(index, e);
     const auto* prestress = model.prestress().kind == wall::PrestressKind::stress ? &S0 : nullptr;

@@ -11,6 +11,7 @@
 #include "tunica/coupling/anderson.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_element.hpp"
+#include "tunica/distributed/element_nodes.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::coupling {
@@ -113,10 +114,7 @@ void FixedPoint::find_prestressed_nodes() {
     names += (names.empty() ? "" : ", ") + region.name;
     std::erase(left, region.name);
     if (excluded(region)) continue;
-    for (const auto& element : region.elements)
-      for (const auto node : element) prestressed_[static_cast<std::size_t>(node)] = 1;
-    for (const auto& edges : region.edges)
-      for (const auto node : edges) prestressed_[static_cast<std::size_t>(node)] = 1;
+    distributed::for_each_node(region, [&](std::int32_t node) { prestressed_[static_cast<std::size_t>(node)] = 1; });
   }
   if (!left.empty())
     throw InputError("prestress.exclude", "the mesh has no wall region " + left.front(), "use one of: " + names);

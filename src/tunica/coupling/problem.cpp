@@ -42,6 +42,8 @@ bool has_region(const distributed::DistributedMesh& mesh, mesh::RegionKind kind)
   return std::any_of(mesh.regions.begin(), mesh.regions.end(), [&](const auto& r) { return r.kind == kind; });
 }
 
+bool is_lumen(const distributed::EdgeNode& edge) { return edge.kind == mesh::RegionKind::lumen; }
+
 }  // namespace
 
 int StepReport::linear_iterations() const {
@@ -82,10 +84,8 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
     if (region.kind == mesh::RegionKind::lumen) continue;
     auto groups = wall_->model.groups(mesh, r, pattern_, width);
     std::move(groups.begin(), groups.end(), std::back_inserter(wall_->groups));
-    for (const auto& element : region.elements)
-      for (const auto node : element) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
-    for (const auto& edges : region.edges)
-      for (const auto node : edges) follows_wall_[node] = follows_wall_[mesh.host[node]] = 1;
+    distributed::for_each_node(region,
+                               [&](std::int32_t node) { follows_wall_[node] = follows_wall_[mesh.host[node]] = 1; });
   }
   // A ghost may be a wall node although no wall element is seen here: its owner knows.
   std::vector<double> follows(follows_wall_.begin(), follows_wall_.end());
@@ -96,19 +96,7 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
     auto groups = lumen_groups(mesh, region, follows_wall_, pattern_, width);
     std::move(groups.begin(), groups.end(), std::back_inserter(lumen_groups_));
   }
-  for (const auto& region : mesh.regions) {
-    if (!mesh.quadratic) break;
-    std::vector<char> seen(mesh.nodes(), 0);
-    for (std::size_t e = 0; e < region.edges.size(); ++e)
-      for (int k = 0; k < 6; ++k) {
-        const auto node = region.edges[e][k];
-        if (std::exchange(seen[node], 1) == 0)
-          edges_.push_back(
-              {node,
-               {region.elements[e][mesh::tetrahedron_edges[k][0]], region.elements[e][mesh::tetrahedron_edges[k][1]]},
-               region.kind == mesh::RegionKind::lumen});
-      }
-  }
+  edges_ = distributed::edge_nodes(mesh);
   negligible_ = negligible_forces();
   if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
 
@@ -206,7 +194,7 @@ void Problem::evaluate_fields(const State& old_state, const State& next, const I
   }
   for (const auto& edge : edges_)
     for (auto* field : {&position_, &mesh_velocity_})
-      if (edge.lumen) set_to_mean(*field, edge);
+      if (is_lumen(edge)) set_to_mean(*field, edge);
 }
 
 // Rates and wall displacements that belong to the velocities of `next`.
@@ -223,7 +211,7 @@ void Problem::follow_velocity(const State& old_state, State& next, const TimeSch
     }
 }
 
-void Problem::set_to_mean(std::span<double> field, const Edge& edge) const {
+void Problem::set_to_mean(std::span<double> field, const distributed::EdgeNode& edge) const {
   for (int c = 0; c < 3; ++c)
     field[at(edge.node) + c] = 0.5 * (field[at(edge.ends[0]) + c] + field[at(edge.ends[1]) + c]);
 }
@@ -242,7 +230,7 @@ void Problem::remember_start(const State& state, const State& next) {
   flow_speed_ = largest_speed(next);
   for (std::size_t k = 0; k < stream_.size(); ++k) stream_[k] = -state.displacement_rate[k];
   for (const auto& edge : edges_)
-    if (edge.lumen) set_to_mean(stream_, edge);
+    if (is_lumen(edge)) set_to_mean(stream_, edge);
   for (std::size_t k = 0; k < stream_.size(); k += 4) {
     stream_[k + 3] = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -268,7 +256,7 @@ int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& sc
   else
     prescribe_mesh(next);
   for (const auto& edge : edges_)
-    if (edge.lumen && !follows_wall_[edge.node]) set_to_mean(next.displacement, edge);
+    if (is_lumen(edge) && !follows_wall_[edge.node]) set_to_mean(next.displacement, edge);
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
     if (!follows_wall_[i])
       for (int c = 0; c < 3; ++c) {

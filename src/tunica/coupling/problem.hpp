@@ -16,6 +16,7 @@
 #include "tunica/coupling/mesh_motion.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/state.hpp"
+#include "tunica/distributed/element_nodes.hpp"
 
 namespace tunica::wall {
 struct Parameters;  // wall/parameters.hpp
@@ -121,14 +122,10 @@ class Problem {
     double time = 0;                             ///< t_{n+alpha_f} [s]
     double load_factor = 1;
   };
-  struct Edge {
-    std::int32_t node, ends[2];
-    bool lumen;
-  };
   void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
   void follow_velocity(const State& old_state, State& next, const assembly::TimeScheme& scheme) const;
   void interpolate_pressure(State& state) const;
-  void set_to_mean(std::span<double> field, const Edge& edge) const;
+  void set_to_mean(std::span<double> field, const distributed::EdgeNode& edge) const;
   double largest_speed(const State& state) const;
   void remember_start(const State& state, const State& next);
   void prescribe_mesh(State& state) const;
@@ -165,7 +162,8 @@ class Problem {
   std::unique_ptr<Wall> wall_;      ///< null without one
   std::vector<double> negligible_;  ///< forces whose norm is noise, [owned node][4]; empty without a wall
   std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
-  std::vector<Edge> edges_;  ///< those with nodes; in the lumen they move the mesh as the mean of their ends does
+  std::vector<distributed::EdgeNode>
+      edges_;  ///< those with nodes; in the lumen they move the mesh as the mean of their ends does
   assembly::BlockMatrix matrix_;
   assembly::LinearSolver solver_;
   std::optional<MeshMotion> mesh_motion_;

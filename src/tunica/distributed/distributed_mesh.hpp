@@ -21,7 +21,7 @@ struct Region {
   mesh::RegionKind kind;
   std::int32_t owned_elements = 0;
   std::vector<std::array<std::int32_t, 4>> elements;  ///< corners, local nodes
-  std::vector<std::array<std::int32_t, 6>> edges{};   ///< nodes on their edges (mesh::tetrahedron_edges); or empty
+  std::vector<std::array<std::int32_t, 6>> edges{};   ///< nodes on their edges (fe::edge_ends); or empty
   std::vector<std::int64_t> element_ids;              ///< position in MeshData::tetrahedra
   std::vector<mesh::ElementField> fields;             ///< of these elements
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "tunica/base/error.hpp"
+#include "tunica/distributed/element_nodes.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
@@ -38,18 +39,11 @@ struct Piece {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  ///< points and cells; arrays only while writing
 };
 
-template <class Visit>
-void for_each_node(const Region& region, std::int32_t e, Visit visit) {
-  for (const auto n : region.elements[e]) visit(n);
-  if (region.edges.empty()) return;
-  for (const auto n : region.edges[e]) visit(n);
-}
-
 Piece make_piece(const DistributedMesh& mesh, const Region& region, double length_factor) {
   Piece piece;
   std::vector<std::int32_t> number(mesh.nodes(), -1);
   for (std::int32_t e = 0; e < region.owned_elements; ++e)
-    for_each_node(region, e, [&](std::int32_t n) { number[n] = 0; });
+    for_each_node(region, static_cast<std::size_t>(e), [&](std::int32_t n) { number[n] = 0; });
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
   for (std::int32_t n = 0; n < mesh.nodes(); ++n) {
@@ -64,7 +58,7 @@ Piece make_piece(const DistributedMesh& mesh, const Region& region, double lengt
   cells->AllocateExact(region.owned_elements, count * static_cast<vtkIdType>(region.owned_elements));
   for (std::int32_t e = 0; e < region.owned_elements; ++e) {
     cells->InsertNextCell(count);
-    for_each_node(region, e, [&](std::int32_t n) { cells->InsertCellPoint(number[n]); });
+    for_each_node(region, static_cast<std::size_t>(e), [&](std::int32_t n) { cells->InsertCellPoint(number[n]); });
   }
   piece.grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   piece.grid->SetPoints(points);

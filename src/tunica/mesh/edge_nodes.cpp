@@ -4,6 +4,8 @@
 #include <cassert>
 #include <unordered_map>
 
+#include "tunica/fe/quadratic_tetrahedron.hpp"
+
 namespace tunica::mesh {
 
 namespace {
@@ -89,8 +91,8 @@ void add_edge_nodes(MeshData& data) {
   data.edges.resize(data.tetrahedra.size());
   for (std::size_t e = 0; e < data.tetrahedra.size(); ++e)
     for (std::size_t k = 0; k < 6; ++k)
-      data.edges[e][k] = edges.add(data.tetrahedra[e][static_cast<std::size_t>(tetrahedron_edges[k][0])],
-                                   data.tetrahedra[e][static_cast<std::size_t>(tetrahedron_edges[k][1])]);
+      data.edges[e][k] = edges.add(data.tetrahedra[e][static_cast<std::size_t>(fe::edge_ends[k][0])],
+                                   data.tetrahedra[e][static_cast<std::size_t>(fe::edge_ends[k][1])]);
   for (auto& face : data.faces) {
     face.edges.clear();
     for (const auto& t : face.triangles)

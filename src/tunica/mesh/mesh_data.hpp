@@ -45,9 +45,6 @@ struct FaceData {
   std::vector<std::array<std::int64_t, 3>> edges{};    ///< of each triangle: nodes on its edges 01 12 20; see MeshData
 };
 
-/// Edges of a tetrahedron, in the order of VTK_QUADRATIC_TETRA.
-inline constexpr int tetrahedron_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-
 struct MeshData {
   std::vector<Vec3<double>> points;                     ///< m
   std::vector<std::array<std::int64_t, 4>> tetrahedra;  ///< corners, positive orientation
@@ -56,7 +53,7 @@ struct MeshData {
   std::vector<ElementField> fields;                          ///< of all tetrahedra
   std::vector<NodeField> node_fields;                        ///< of all points
   std::vector<std::pair<std::int64_t, std::int64_t>> twins;  ///< (wall node, lumen node hosting its motion)
-  /// Of each tetrahedron: nodes in the middle of its edges (tetrahedron_edges). Empty for linear elements;
+  /// Of each tetrahedron: nodes in the middle of its edges (fe::edge_ends). Empty for linear elements;
   /// edge_nodes.hpp makes them.
   std::vector<std::array<std::int64_t, 6>> edges{};
 };

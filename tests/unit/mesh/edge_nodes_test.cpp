@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "tunica/fe/quadratic_tetrahedron.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
@@ -27,8 +28,8 @@ TEST(EdgeNodes, EveryEdgeHasOneNodeInItsMiddle) {
   std::map<std::set<std::int64_t>, std::int64_t> node_of;
   for (std::size_t e = 0; e < data.tetrahedra.size(); ++e)
     for (std::size_t k = 0; k < 6; ++k) {
-      const auto a = data.tetrahedra[e][static_cast<std::size_t>(tetrahedron_edges[k][0])],
-                 b = data.tetrahedra[e][static_cast<std::size_t>(tetrahedron_edges[k][1])], n = data.edges[e][k];
+      const auto a = data.tetrahedra[e][static_cast<std::size_t>(fe::edge_ends[k][0])],
+                 b = data.tetrahedra[e][static_cast<std::size_t>(fe::edge_ends[k][1])], n = data.edges[e][k];
       EXPECT_GE(n, corners);
       EXPECT_EQ(node_of.try_emplace({a, b}, n).first->second, n);
       for (int c = 0; c < 3; ++c)
