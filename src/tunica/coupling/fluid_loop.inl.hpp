@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "tunica/coupling/gather.inl.hpp"
+#include "tunica/coupling/quadratic_scatter.inl.hpp"
 #include "tunica/fluid/rbvms_shape.hpp"
 #include "tunica/fluid/taylor_hood.hpp"
 
@@ -46,27 +47,6 @@ void loop_over_fluid(const LumenGroupView& group, const FieldsView& fields, cons
   }
 }
 
-/// Adds one row of element blocks of the used lanes, and the pressure row of a corner.
-template <int W>
-TUNICA_INLINE void scatter_row(const fluid::taylor_hood::TangentRow<Pack<W>>& row, int a, const std::int32_t* slots,
-                               int used, float* blocks) {
-  const Pack<W> zero(0.0);
-  for (int b = 0; b < fe::quadratic_nodes; ++b)
-    for (int j = 0; j < 4; ++j) {
-      if (j == 3 && b >= 4) continue;
-      assembly::BatchDouble4 column[W];
-      if (j < 3)
-        assembly::to_lanes<W>(row.velocity[b](0, j), row.velocity[b](1, j), row.velocity[b](2, j),
-                              a < 4 ? row.continuity[b][j] : zero, column);
-      else
-        assembly::to_lanes<W>(row.pressure[b][0], row.pressure[b][1], row.pressure[b][2], zero, column);
-      for (int lane = 0; lane < used; ++lane)
-        assembly::add_column(
-            blocks + 16 * static_cast<std::ptrdiff_t>(slots[(fe::quadratic_nodes * a + b) * W + lane]) + 4 * j,
-            __builtin_convertvector(column[lane], assembly::BatchFloat4));
-    }
-}
-
 template <int W, class Viscosity>
 void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fields,
                                const fluid::Parameters& parameters, const Viscosity& law,
@@ -91,16 +71,17 @@ void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fi
       if (group.moves != nullptr)
         for (int a = 0; a < 4; ++a)
           moves[a] = Pack<W>::load(group.moves + (static_cast<std::ptrdiff_t>(batch) * n + a) * W);
-      th::tangent(
-          state, time, parameters, law, motion, group.moves != nullptr ? &moves : nullptr, r,
-          [&](int a, const th::TangentRow<Pack<W>>& row) { scatter_row<W>(row, a, slots, used, target.blocks); });
+      prefetch_row<W>(0, slots, false, target.blocks);
+      th::tangent(state, time, parameters, law, motion, group.moves != nullptr ? &moves : nullptr, r,
+                  [&](int a, const th::TangentRow<Pack<W>>& row) {
+                    if (a + 1 < n) prefetch_row<W>(a + 1, slots, false, target.blocks);
+                    scatter_row<W>({row.velocity, row.pressure, a < fe::nodes ? row.continuity : nullptr, nullptr}, a,
+                                   slots, false, used, target.blocks);
+                  });
     } else {
       th::residual(state, time, parameters, law, r);
     }
-    const Pack<W> zero(0.0);
-    for (int a = 0; a < n; ++a)
-      assembly::scatter_node<W>(r.momentum[a][0], r.momentum[a][1], r.momentum[a][2], a < 4 ? r.continuity[a] : zero,
-                                nodes + a * W, used, target.residual);
+    scatter_quadratic_residual<W>(r.momentum, r.continuity, nodes, nullptr, used, target.residual);
   }
 }
 

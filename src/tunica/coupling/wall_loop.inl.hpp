@@ -3,6 +3,7 @@
 
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/coupling/gather.inl.hpp"
+#include "tunica/coupling/quadratic_scatter.inl.hpp"
 #include "tunica/wall/prestress.hpp"
 #include "tunica/wall/quadratic_element.hpp"
 
@@ -123,57 +124,6 @@ void loop_over_wall(const WallGroupView& group, const FieldsView& fields, const 
   }
 }
 
-/// One column of a block of the used lanes; where the batch is split, motion and pressure rows go their own ways.
-template <int W>
-TUNICA_INLINE void scatter_column(const assembly::BatchDouble4 (&column)[W], const std::int32_t* slots, int j,
-                                  bool split, int used, float* blocks) {
-  constexpr int pairs = fe::quadratic_nodes * fe::quadratic_nodes;
-  const assembly::BatchFloat4 motion{1, 1, 1, 0}, pressure{0, 0, 0, 1};
-  const int kind = split && j == 3 ? 1 : 0;  // columns 0-2 belong to the host, column 3 to the node
-  for (int lane = 0; lane < used; ++lane) {
-    const auto value = __builtin_convertvector(column[lane], assembly::BatchFloat4);
-    const auto add = [&](int to, const assembly::BatchFloat4& part) {
-      assembly::add_column(blocks + 16 * static_cast<std::ptrdiff_t>(slots[to * pairs * W + lane]) + 4 * j, part);
-    };
-    if (split) {
-      add(kind, value * motion);
-      add(kind + 2, value * pressure);
-    } else {
-      add(0, value);
-    }
-  }
-}
-
-/// Asks for the blocks of a row ahead of time, which saves a quarter of an assembly.
-template <int W>
-TUNICA_INLINE void prefetch_row(int a, const std::int32_t* slots, int kinds, const float* blocks) {
-  constexpr int n = fe::quadratic_nodes;
-  for (int kind = 0; kind < kinds; ++kind)
-    for (int k = 0; k < n * W; ++k)
-      __builtin_prefetch(blocks + 16 * static_cast<std::ptrdiff_t>(slots[(kind * n + a) * n * W + k]), 1);
-}
-
-/// Adds one row of element blocks; `slots` are those of the batch.
-template <int W, bool mixed>
-void scatter_row(const wall::quadratic::TangentRow<Pack<W>>& row, int a, const std::int32_t* slots, bool split,
-                 int used, float* blocks) {
-  const Pack<W> zero(0.0);
-  const bool corner = mixed && a < fe::nodes;
-  for (int b = 0; b < fe::quadratic_nodes; ++b) {
-    const std::int32_t* of_pair = slots + (fe::quadratic_nodes * a + b) * W;
-    assembly::BatchDouble4 column[W];
-    for (int j = 0; j < 3; ++j) {
-      assembly::to_lanes<W>(row.motion[b](0, j), row.motion[b](1, j), row.motion[b](2, j),
-                            corner ? row.constraint[b][j] : zero, column);
-      scatter_column<W>(column, of_pair, j, split, used, blocks);
-    }
-    if (!mixed || b >= fe::nodes) continue;
-    assembly::to_lanes<W>(row.pressure[b][0], row.pressure[b][1], row.pressure[b][2],
-                          corner ? row.compressibility[b] : zero, column);
-    scatter_column<W>(column, of_pair, 3, split, used, blocks);
-  }
-}
-
 template <int W, wall::LawKind kind, bool mixed>
 void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fields, const WallElementSettings& settings,
                               const wall::Coefficients& coefficients, const LoopTarget& target) {
@@ -201,26 +151,19 @@ void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fiel
     wq::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {
       const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * n * n * W;
-      prefetch_row<W>(0, slots, static_cast<int>(kinds), target.blocks);
+      prefetch_row<W>(0, slots, batches.split, target.blocks);
       wq::tangent<mixed>(state, law, body, coefficients, prestress, r, [&](int a, const wq::TangentRow<Pack<W>>& row) {
-        if (a + 1 < n) prefetch_row<W>(a + 1, slots, static_cast<int>(kinds), target.blocks);
-        scatter_row<W, mixed>(row, a, slots, batches.split, used, target.blocks);
+        if (a + 1 < n) prefetch_row<W>(a + 1, slots, batches.split, target.blocks);
+        const bool corner = mixed && a < fe::nodes;
+        scatter_row<W>({row.motion, mixed ? row.pressure : nullptr, corner ? row.constraint : nullptr,
+                        corner ? row.compressibility : nullptr},
+                       a, slots, batches.split, used, target.blocks);
       });
     } else {
       wq::residual<mixed>(state, law, body, coefficients, prestress, r);
     }
-    const Pack<W> zero(0.0);
-    for (int a = 0; a < n; ++a) {
-      const Pack<W>& constraint = a < fe::nodes ? r.constraint[a] : zero;
-      const auto& force = r.momentum[a];
-      if (batches.split) {
-        const std::int32_t* hosts = batches.hosts + static_cast<std::ptrdiff_t>(batch) * n * W;
-        assembly::scatter_node<W>(force[0], force[1], force[2], zero, hosts + a * W, used, target.residual);
-        assembly::scatter_node<W>(zero, zero, zero, constraint, nodes + a * W, used, target.residual);
-      } else {
-        assembly::scatter_node<W>(force[0], force[1], force[2], constraint, nodes + a * W, used, target.residual);
-      }
-    }
+    const std::int32_t* hosts = batches.split ? batches.hosts + static_cast<std::ptrdiff_t>(batch) * n * W : nullptr;
+    scatter_quadratic_residual<W>(r.momentum, r.constraint, nodes, hosts, used, target.residual);
   }
 }
 
