@@ -351,9 +351,10 @@ void Boundaries::add_quadratic_lumen_load(const Load& load, double value, const 
     const Vec3<double> force =
         load.kind == Load::Kind::lumen_pressure ? (value / 3.0) * area : (-value * norm(area) / 3.0) * load.vector;
     for (int a = 3; a < 6; ++a) r[a] = force;
-    fluid::add_quadratic_backflow(
-        area, v, w, *fluid_, r, matrix != nullptr, coefficients.velocity,
-        [&](int a, int b, const Mat3<double>& block) { add_block(pattern_, *matrix, nodes[a], nodes[b], block); });
+    Mat3<double> k[6][6] = {};
+    fluid::add_quadratic_backflow(area, v, w, *fluid_, r, matrix != nullptr ? k : nullptr, coefficients.velocity);
+    for (int a = 0; a < 6 && matrix != nullptr; ++a)
+      for (int b = 0; b < 6; ++b) add_block(pattern_, *matrix, nodes[a], nodes[b], k[a][b]);
     for (int a = 0; a < 6; ++a)
       for (int i = 0; i < 3; ++i) residual[at(nodes[a]) + i] += r[a][i];
   }

@@ -63,6 +63,38 @@ TUNICA_INLINE void add_pressure(const Vec3<T> (&x)[3], const T& pressure, Triang
   for (int a = 0; a < 3; ++a) r.r[a] = r.r[a] + force;
 }
 
+namespace detail {
+
+/// The share of one point of the rule in the backflow stabilisation below. `N`: shape functions there, `area`: area
+/// vector of the triangle; `k` may be null.
+template <class T, int n>
+TUNICA_INLINE void add_backflow_at(const double (&N)[n], double weight, const Vec3<T>& area,
+                                   const Vec3<T> (&velocity)[n], const Vec3<T> (&mesh_velocity)[n],
+                                   const Parameters& parameters, Vec3<T> (&r)[n], Mat3<T> (*k)[n],
+                                   double velocity_coefficient) {
+  Vec3<T> v = zero_vector<T>(), a = zero_vector<T>();
+  for (int b = 0; b < n; ++b) {
+    add(v, T(N[b]), velocity[b]);
+    add(a, T(N[b]), velocity[b] - mesh_velocity[b]);
+  }
+  const T normal_flow = dot(a, area), zero(0.0);
+  const auto inward = normal_flow < zero;
+  const double factor = -parameters.backflow * parameters.density * weight;
+  const T flow_in = T(factor) * select(inward, normal_flow, zero);
+  for (int row = 0; row < n; ++row) add(r[row], T(N[row]) * flow_in, v);
+  if (k == nullptr) return;
+  const T slope = select(inward, T(factor), zero);
+  Mat3<T> block;  // derivative of flow_in v with respect to v
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) block(i, j) = slope * v[i] * area[j];
+  for (int i = 0; i < 3; ++i) block(i, i) += flow_in;
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column < n; ++column)
+      k[row][column] = k[row][column] + T(N[row] * N[column] * velocity_coefficient) * block;
+}
+
+}  // namespace detail
+
 /// Backflow stabilisation (Esmaily Moghadam et al. 2011): the traction beta rho (a.n)_- v with (s)_- = min(s, 0) and
 /// a = v - v^. Its power is beta rho (a.n)_- |v|^2 <= 0: it only takes energy out, and with beta = 1/2 exactly what an
 /// inward flow carries in. It multiplies v, not a, for the power to have that sign on a moving face as well.
@@ -73,66 +105,21 @@ template <class T>
 TUNICA_INLINE void add_backflow(const Vec3<T> (&x)[3], const Vec3<T> (&velocity)[3], const Vec3<T> (&mesh_velocity)[3],
                                 const Parameters& parameters, TriangleVector<T>& r, TriangleMatrix<T>* k = nullptr,
                                 double velocity_coefficient = 0.0) {
-  const Vec3<T> n = area_vector(x);  // times area, which the weights below therefore leave out
-  for (const fe::TrianglePoint& point : fe::three_points) {
-    Vec3<T> v = detail::zero_vector<T>(), a = detail::zero_vector<T>();
-    for (int b = 0; b < 3; ++b) {
-      detail::add(v, T(point.barycentric[b]), velocity[b]);
-      detail::add(a, T(point.barycentric[b]), velocity[b] - mesh_velocity[b]);
-    }
-    const T normal_flow = dot(a, n), zero(0.0);
-    const auto inward = normal_flow < zero;
-    const double factor = -parameters.backflow * parameters.density * point.weight;
-    const T flow_in = T(factor) * select(inward, normal_flow, zero);
-    for (int row = 0; row < 3; ++row) detail::add(r.r[row], T(point.barycentric[row]) * flow_in, v);
-    if (k == nullptr) continue;
-    const T slope = select(inward, T(factor), zero);
-    Mat3<T> block;  // derivative of flow_in v with respect to v
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) block(i, j) = slope * v[i] * n[j];
-    for (int i = 0; i < 3; ++i) block(i, i) += flow_in;
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) {
-        const T shape(point.barycentric[row] * point.barycentric[column] * velocity_coefficient);
-        k->k[row][column] = k->k[row][column] + shape * block;
-      }
-  }
+  const Vec3<T> area = area_vector(x);
+  for (const fe::TrianglePoint& point : fe::three_points)
+    detail::add_backflow_at(point.barycentric, point.weight, area, velocity, mesh_velocity, parameters, r.r,
+                            k != nullptr ? k->k : nullptr, velocity_coefficient);
 }
 
-/// The same for a quadratic velocity on a straight-edged triangle (fe/quadratic_triangle.hpp): `v`, `v_hat` at its six
-/// nodes. `take(a, b, block)` receives the tangent with respect to v_{n+1}, if `with_tangent`.
-template <class T, class Take>
-TUNICA_INLINE void add_quadratic_backflow(const Vec3<T>& area, const Vec3<T> (&v)[6], const Vec3<T> (&v_hat)[6],
-                                          const Parameters& parameters, Vec3<T> (&r)[6], bool with_tangent,
-                                          double velocity_coefficient, Take&& take) {
-  Mat3<T> k[6][6];
-  if (with_tangent)
-    for (auto& row : k)
-      for (auto& block : row) block = detail::zero_matrix<T>();
-  for (const auto& point : fe::quadratic_seven_points) {
-    Vec3<T> u = detail::zero_vector<T>(), a = detail::zero_vector<T>();
-    for (int b = 0; b < 6; ++b) {
-      detail::add(u, T(point.N[b]), v[b]);
-      detail::add(a, T(point.N[b]), v[b] - v_hat[b]);
-    }
-    const T normal_flow = dot(a, area), zero(0.0);
-    const auto inward = normal_flow < zero;
-    const double factor = -parameters.backflow * parameters.density * point.weight;
-    const T flow_in = T(factor) * select(inward, normal_flow, zero);
-    for (int row = 0; row < 6; ++row) detail::add(r[row], T(point.N[row]) * flow_in, u);
-    if (!with_tangent) continue;
-    const T slope = select(inward, T(factor), zero);
-    Mat3<T> block;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) block(i, j) = slope * u[i] * area[j];
-    for (int i = 0; i < 3; ++i) block(i, i) += flow_in;
-    for (int row = 0; row < 6; ++row)
-      for (int column = 0; column < 6; ++column)
-        k[row][column] = k[row][column] + T(point.N[row] * point.N[column] * velocity_coefficient) * block;
-  }
-  if (!with_tangent) return;
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column) take(row, column, k[row][column]);
+/// The same for a quadratic velocity on a straight-edged triangle (fe/quadratic_triangle.hpp), at seven points. `k`
+/// [6][6] may be null.
+template <class T>
+TUNICA_INLINE void add_quadratic_backflow(const Vec3<T>& area, const Vec3<T> (&velocity)[6],
+                                          const Vec3<T> (&mesh_velocity)[6], const Parameters& parameters,
+                                          Vec3<T> (&r)[6], Mat3<T> (*k)[6], double velocity_coefficient) {
+  for (const auto& point : fe::quadratic_seven_points)
+    detail::add_backflow_at(point.N, point.weight, area, velocity, mesh_velocity, parameters, r, k,
+                            velocity_coefficient);
 }
 
 /// Wall shear stress: tangential part of the viscous traction mu (grad v + grad v^T) n that the wall exerts on the flow

@@ -16,7 +16,7 @@
 
 #include "folders.hpp"
 #include "tunica/coupling/problem.hpp"
-#include "tunica/distributed/distributed_mesh.hpp"
+#include "tunica/distributed/element_nodes.hpp"
 #include "tunica/fe/quadratic_tetrahedron.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -84,61 +84,42 @@ struct Errors {
   double velocity = 0, pressure = 0;  ///< L2 norms over the domain, relative to those of the exact fields
 };
 
-/// One element of quadratic velocity, with the rule of degree 5.
-inline void add_quadratic_errors(const distributed::Region& region, std::size_t e, const Vec3<double> (&x)[4],
-                                 double volume, const coupling::State& state, double pressure_time,
-                                 const coupling::VectorField& velocity, const ScalarField& pressure,
-                                 std::vector<double>& sums) {
-  for (const auto& point : fe::quadratic_fourteen_points) {
-    Vec3<double> place{}, v{};
-    double p = 0;
-    for (int a = 0; a < 10; ++a) {
-      const double* nodal = state.velocity_pressure.data() + at(a < 4 ? region.elements[e][a] : region.edges[e][a - 4]);
-      v = v + point.N[a] * Vec3<double>{{nodal[0], nodal[1], nodal[2]}};
-      if (a >= 4) continue;
-      place = place + point.barycentric[a] * x[a];
-      p += point.barycentric[a] * nodal[3];
-    }
-    const auto exact_v = velocity(place, state.time);
-    const double exact_p = pressure(place, pressure_time), w = point.weight * volume;
-    sums[0] += w * dot(v - exact_v, v - exact_v);
-    sums[1] += w * dot(exact_v, exact_v);
-    sums[2] += w * (p - exact_p) * (p - exact_p);
-    sums[3] += w * exact_p * exact_p;
-  }
-}
-
-/// Against exact fields on the mesh at rest, with the four-point rule; the pressure belongs to time `pressure_time`.
+/// Against exact fields on the mesh at rest, with rules of degree 2 for linear and 5 for quadratic elements; the
+/// pressure belongs to time `pressure_time`.
 inline Errors errors(const coupling::Problem& problem, const coupling::State& state, double pressure_time,
                      const coupling::VectorField& velocity, const ScalarField& pressure) {
   const auto& mesh = problem.mesh();
   std::vector<double> sums(4, 0.0);
   for (const auto& region : mesh.regions)
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
+      std::vector<std::int32_t> nodes;
+      distributed::for_each_node(region, static_cast<std::size_t>(e),
+                                 [&](std::int32_t node) { nodes.push_back(node); });
       Vec3<double> x[4];
-      for (int a = 0; a < 4; ++a) x[a] = mesh.points[region.elements[e][a]];
+      for (int a = 0; a < 4; ++a) x[a] = mesh.points[nodes[a]];
       const double volume = fe::gradients(x).volume;
-      if (mesh.quadratic) {
-        add_quadratic_errors(region, static_cast<std::size_t>(e), x, volume, state, pressure_time, velocity, pressure,
-                             sums);
-        continue;
-      }
-      for (const auto& point : fe::four_points) {
+      // At a point with the barycentric coordinates l, where the shape functions of the velocity are N.
+      const auto add = [&](const double(&l)[4], const double* N, double weight) {
         Vec3<double> place{}, v{};
         double p = 0;
-        for (int a = 0; a < 4; ++a) {
-          const double* nodal = state.velocity_pressure.data() + at(region.elements[e][a]);
-          place = place + point.barycentric[a] * x[a];
-          v = v + point.barycentric[a] * Vec3<double>{{nodal[0], nodal[1], nodal[2]}};
-          p += point.barycentric[a] * nodal[3];
+        for (std::size_t a = 0; a < nodes.size(); ++a) {
+          const double* nodal = state.velocity_pressure.data() + at(nodes[a]);
+          v = v + N[a] * Vec3<double>{{nodal[0], nodal[1], nodal[2]}};
+          if (a >= 4) continue;
+          place = place + l[a] * x[a];
+          p += l[a] * nodal[3];
         }
         const auto exact_v = velocity(place, state.time);
-        const double exact_p = pressure(place, pressure_time), w = point.weight * volume;
+        const double exact_p = pressure(place, pressure_time), w = weight * volume;
         sums[0] += w * dot(v - exact_v, v - exact_v);
         sums[1] += w * dot(exact_v, exact_v);
         sums[2] += w * (p - exact_p) * (p - exact_p);
         sums[3] += w * exact_p * exact_p;
-      }
+      };
+      if (mesh.quadratic)
+        for (const auto& point : fe::quadratic_fourteen_points) add(point.barycentric, point.N, point.weight);
+      else
+        for (const auto& point : fe::four_points) add(point.barycentric, point.barycentric, point.weight);
     }
   parallel::global_sum(mesh.comm, sums);
   return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
