@@ -221,17 +221,48 @@ Histories::Histories(const fs::path& folder, const case_file::Case& c, const std
                                           "first norm", "last norm", "assembly [s]", "set-up [s]", "linear [s]",
                                           "mesh [s]", "total [s]"},
                  continue_from, CsvTable::Lines::for_every_step);
+  open_points_and_forces(folder, c, faces, continue_from);
+}
+
+namespace {
+
+/// "<name> <what> x [unit]" and so on.
+void add_vector(std::vector<std::string>& columns, const std::string& name, const char* what, const std::string& unit) {
+  for (const char* axis : {"x", "y", "z"}) columns.push_back(fmt::format("{} {} {} [{}]", name, what, axis, unit));
+}
+
+}  // namespace
+
+void Histories::open_points_and_forces(const fs::path& folder, const case_file::Case& c,
+                                       const std::vector<std::string>& faces,
+                                       std::optional<std::int64_t> continue_from) {
+  const case_file::OutputUnits& u = c.output.units;
+  const bool statics = std::holds_alternative<case_file::StaticWall>(c.analysis);
+  const std::string time = statics ? "load factor" : fmt::format("time [{}]", u.time);
+  if (!c.output.points.empty()) {
+    std::vector<std::string> columns{time};
+    for (const auto& [name, probe] : c.output.points) {
+      add_vector(columns, name, "displacement", u.length);
+      add_vector(columns, name, "velocity", u.velocity);
+      columns.push_back(fmt::format("{} pressure [{}]", name, u.pressure));
+    }
+    points_.emplace(folder / "points.csv", columns, continue_from, CsvTable::Lines::for_every_step);
+  }
+  if (!c.output.forces || !c.solves_fluid()) return;
+  std::vector<std::string> columns{time};
+  for (const auto& face : sticking_faces(c, faces)) add_vector(columns, face, "force", "N");
+  forces_.emplace(folder / "forces.csv", columns, continue_from, CsvTable::Lines::for_every_step);
 }
 
 std::vector<std::string> Histories::damage() const {
   std::vector<std::string> all;
   std::optional<std::int64_t> first;
-  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_}) {
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_}) {
     if (!*table) continue;
     all.insert(all.end(), (*table)->damage().begin(), (*table)->damage().end());
     if (const auto step = (*table)->first_step(); step) first = std::min(first.value_or(*step), *step);
   }
-  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_})
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_})
     if (*table && (*table)->first_step() > first)
       all.push_back(
           fmt::format("{}: {}", (*table)->file().string(), missing_steps(*first, *(*table)->first_step() - 1)));
@@ -262,8 +293,26 @@ std::vector<double> Histories::balance_line(const StepHistory& step) const {
 }
 
 void Histories::sync() const {
-  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_})
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_})
     if (*table) (*table)->sync();
+}
+
+void Histories::append_points_and_forces(const StepHistory& step) {
+  if (points_) {
+    std::vector<double> line{per_si_.time * step.time};
+    for (const auto& p : step.points) {
+      for (int i = 0; i < 3; ++i) line.push_back(per_si_.length * p.displacement[i]);
+      for (int i = 0; i < 3; ++i) line.push_back(per_si_.velocity * p.velocity[i]);
+      line.push_back(per_si_.pressure * p.pressure);
+    }
+    points_->append(step.step, line);
+  }
+  if (forces_) {
+    std::vector<double> line{per_si_.time * step.evaluated};
+    for (const auto& face : step.record.wall_forces)
+      for (int i = 0; i < 3; ++i) line.push_back(face.force[i]);
+    forces_->append(step.step, line);
+  }
 }
 
 void Histories::append(const StepHistory& step, const std::vector<bc::Outlet>& outlets) {
@@ -282,6 +331,7 @@ void Histories::append(const StepHistory& step, const std::vector<bc::Outlet>& o
     outlets_->append(step.step, line);
   }
   balance_->append(step.step, balance_line(step));
+  append_points_and_forces(step);
   int mesh_iterations = 0;
   for (const auto& iteration : step.report.iterations) mesh_iterations += iteration.mesh_iterations;
   const auto& t = step.report.timings;

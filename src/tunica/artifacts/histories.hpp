@@ -11,6 +11,7 @@
 #include "tunica/bc/outlets.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/coupling/monitors.hpp"
+#include "tunica/coupling/probes.hpp"
 #include "tunica/files/csv_file.hpp"
 
 namespace tunica::artifacts {
@@ -63,12 +64,15 @@ struct StepHistory {
   double evaluated = 0;   ///< time that `record` belongs to [s]
   coupling::StepRecord record;
   coupling::StepReport report;
+  std::vector<coupling::ProbeRecord> points{};  ///< at the end of the step, in the order of the case
 };
 
 /// The histories of a run, in the units of the case:
 /// - faces.csv: flow, mean pressure and area of each lumen face;
 /// - outlets.csv: flow, pressure and stored pressure of each resistance and RCR outlet, at the end of the step;
 /// - balance.csv: volumes, energies, powers, and what is left of the balances of mass and interface power;
+/// - points.csv: displacement, velocity and pressure at the points of the case, at the end of the step;
+/// - forces.csv: force of the blood on the faces that it sticks to, where the case wants it;
 /// - steps.csv: iterations, norms and seconds of each step.
 /// Files that the analysis has nothing for are not made. In statics the load factor stands for the time.
 class Histories {
@@ -85,7 +89,7 @@ class Histories {
   std::vector<std::string> damage() const;
 
   static std::vector<std::string> files() {
-    return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv"};
+    return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv", "points.csv", "forces.csv"};
   }
 
  private:
@@ -93,9 +97,12 @@ class Histories {
     double time, area, volume, flow, pressure, length, velocity;
   };
   std::vector<double> balance_line(const StepHistory& step) const;
+  void open_points_and_forces(const std::filesystem::path& folder, const case_file::Case& c,
+                              const std::vector<std::string>& faces, std::optional<std::int64_t> continue_from);
+  void append_points_and_forces(const StepHistory& step);
 
   Factors per_si_;
-  std::optional<CsvTable> faces_, outlets_, balance_, steps_;
+  std::optional<CsvTable> faces_, outlets_, balance_, steps_, points_, forces_;
 };
 
 }  // namespace tunica::artifacts

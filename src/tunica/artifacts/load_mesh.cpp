@@ -96,6 +96,7 @@ bc::BoundaryCase boundary_case(const case_file::Case& c, const std::vector<bc::B
   boundary.interfaces = case_file::interface_pairs(c.meshes);
   boundary.conditions = c.boundary;
   boundary.rigid_wall = std::holds_alternative<case_file::RigidFlow>(c.analysis);
+  boundary.pressure_point = c.pressure_point.has_value();
   boundary.static_wall = std::holds_alternative<case_file::StaticWall>(c.analysis);
   return boundary;
 }

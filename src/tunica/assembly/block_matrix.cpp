@@ -30,9 +30,21 @@ Constraints::Constraints(const BlockPattern& pattern, std::vector<NodeConstraint
     }
 }
 
+namespace {
+
+// What stands for the held directions of a node. Where others are free it is as large as theirs: in the entries of an
+// oblique plane both are added, in single precision.
+double held_entry(const NodeConstraint& c, const float* a) {
+  const double mean = (static_cast<double>(a[0]) + a[5] + a[10]) / 3.0;
+  return trace(c.P) > 0.5 && mean > 0 ? mean : 1.0;
+}
+
+}  // namespace
+
 void Constraints::apply(BlockMatrix& matrix) const {
   for (const auto& t : touched_) {
     float* a = matrix.blocks[t.block].a;
+    const double held = t.diagonal ? held_entry(constraints_[t.row], a) : 1.0;
     if (t.row >= 0) {
       const auto& c = constraints_[t.row];
       for (int j = 0; j < 4; ++j) {
@@ -54,7 +66,7 @@ void Constraints::apply(BlockMatrix& matrix) const {
     if (t.diagonal) {
       const auto& c = constraints_[t.row];
       for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) a[4 * j + i] += static_cast<float>((i == j ? 1.0 : 0.0) - c.P(i, j));
+        for (int i = 0; i < 3; ++i) a[4 * j + i] += static_cast<float>(held * ((i == j ? 1.0 : 0.0) - c.P(i, j)));
       if (c.pressure_fixed) a[15] = 1;
     }
   }

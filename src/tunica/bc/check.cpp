@@ -23,8 +23,8 @@ bool fits(const Condition& condition, Field field) {
 }
 
 const char* allowed(Field field) {
-  return field == Field::lumen ? "no_slip, velocity, flow, pressure, traction, resistance, rcr"
-                               : "fixed, free, pressure, traction, support";
+  return field == Field::lumen ? "no_slip, symmetry, velocity, profile, flow, pressure, traction, resistance, rcr"
+                               : "fixed, symmetry, free, pressure, traction, support";
 }
 
 class Checker {
@@ -38,7 +38,7 @@ class Checker {
     check_interfaces();
     check_faces();
     for (const auto& [face, condition] : boundary_.conditions) check_condition(face, condition);
-    if (boundary_.rigid_wall) check_pressure_level();
+    check_pressure_level();
     if (boundary_.static_wall) check_wall_support();
     return std::move(problems_);
   }
@@ -106,20 +106,35 @@ class Checker {
     }
   }
 
-  void check_pressure_level() {
-    std::vector<std::string> lumen;
+  /// A lumen face whose condition sets the pressure; empty when there is none.
+  std::string face_with_pressure() const {
     for (const auto& [name, condition] : boundary_.conditions) {
       const auto* face = find(name);
-      if (!face || face->field != Field::lumen || !fits_lumen(condition)) continue;
-      if (!prescribes_velocity(condition)) return;
-      lumen.push_back(name);
+      if (face && face->field == Field::lumen && fits_lumen(condition) && !prescribes_velocity(condition)) return name;
     }
+    return {};
+  }
+
+  void check_pressure_level() {
+    const std::string open = face_with_pressure();
+    if (boundary_.pressure_point && !(boundary_.rigid_wall && open.empty()))
+      problems_.push_back({"pressure_point",
+                           open.empty()
+                               ? std::string("is given, but the wall that moves with the blood sets its pressure")
+                               : fmt::format("is given, but face {} sets the pressure", open),
+                           "remove it: it is for blood that is enclosed by given velocities alone"});
+    if (!boundary_.rigid_wall || boundary_.pressure_point || !open.empty()) return;
+    std::vector<std::string> lumen;
+    for (const auto& [name, condition] : boundary_.conditions)
+      if (const auto* face = find(name); face && face->field == Field::lumen && fits_lumen(condition))
+        lumen.push_back(name);
     if (!lumen.empty())
       problems_.push_back({"boundary",
                            fmt::format("every lumen face ({}) prescribes the velocity: the pressure is "
                                        "undetermined and the flows need not balance",
                                        listed(lumen)),
-                           "give one opening a pressure, traction, resistance or rcr condition"});
+                           "give one opening a pressure, traction, resistance or rcr condition, or an enclosed flow a "
+                           "`pressure_point`"});
   }
 
   /// Rigid motion can only be judged coarsely without the geometry: at least one face must hold the wall, and faces
@@ -133,6 +148,7 @@ class Checker {
         if (fixed->along_normal()) return;
         for (int i = 0; i < 3; ++i) held[i] = held[i] || fixed->axes()[i];
       }
+      if (std::holds_alternative<Symmetry>(condition)) return;
       if (const auto* support = std::get_if<Support>(&condition); support && support->holds()) return;
     }
     for (const auto& face : boundary_.faces) any_wall = any_wall || face.field == Field::wall;

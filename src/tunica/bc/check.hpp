@@ -25,6 +25,7 @@ struct BoundaryCase {
   std::vector<std::pair<std::string, Condition>> conditions;    ///< as in the case file, in its order
   bool rigid_wall = false;                                      ///< flow alone: nothing compliant takes up volume
   bool static_wall = false;                                     ///< no inertia: an unsupported wall is singular
+  bool pressure_point = false;                                  ///< the pressure of one node is given
 };
 
 /// All that is wrong, in the order faces then conditions; empty when the case is sound. `where` is boundary.<face>.
@@ -33,6 +34,7 @@ struct BoundaryCase {
 ///   wrong side
 /// - a condition that does not fit the region
 /// - rigid flow where every lumen face prescribes velocity: pressure is undetermined and the flows may not balance
+/// - a pressure point where a face or the wall sets the pressure
 /// - static wall without a fixed or supporting face, or fixed in too few directions to hold it
 std::vector<Problem> check_boundary(const BoundaryCase& boundary);
 

@@ -21,7 +21,9 @@ constexpr std::array<Traits, std::variant_size_v<Condition>> traits = {{{"no_sli
                                                                         {"rcr", true, false, false},
                                                                         {"fixed", false, true, false},
                                                                         {"free", false, true, false},
-                                                                        {"support", false, true, false}}};
+                                                                        {"support", false, true, false},
+                                                                        {"symmetry", true, true, true},
+                                                                        {"profile", true, false, true}}};
 
 }  // namespace
 

@@ -5,8 +5,12 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "tunica/base/tensor.hpp"
 #include "tunica/bc/inflow.hpp"
@@ -55,7 +59,26 @@ struct Traction {
 
 // Resistance and Rcr: outlets.hpp.
 
+/// v(x, t) at the nodes of a face, by formulas or by a table of points, times course(t). The nodes get what these say:
+/// the flow through the face is that of their interpolation. Exactly one of `velocity`, `speed` and `table` is given.
+struct VelocityProfile {
+  enum class Interpolation { nearest, linear };
+  std::vector<std::string> velocity{};         ///< formulas (formula.hpp) of the three components
+  std::optional<std::string> speed{};          ///< formula of the speed into the domain, along the mean normal
+  std::optional<std::filesystem::path> table;  ///< CSV with the columns x, y, z, vx, vy, vz
+  double unit = 1.0, length_unit = 1.0;        ///< of velocities [m/s] and coordinates [m], in formulas and table
+  Interpolation interpolation = Interpolation::linear;
+  WaveformInput course{1.0};  ///< dimensionless
+  static config::Schema<VelocityProfile> schema();
+};
+
 // --- lumen and wall faces ---------------------------------------------------------------------------------------
+
+/// Plane of symmetry: no velocity and no displacement across the plane of the face, no traction along it. The face has
+/// to be flat.
+struct Symmetry {
+  static config::Schema<Symmetry> schema();
+};
 
 /// Traction -p n. On a wall face `follower` turns and stretches with the deformed face; a dead one keeps the normal and
 /// area of the reference. On a lumen face n is the current normal and follower has no meaning.
@@ -108,10 +131,11 @@ struct Support {
   static config::Schema<Support> schema();
 };
 
-using Condition = std::variant<NoSlip, Velocity, Flow, Pressure, Traction, Resistance, Rcr, Fixed, Free, Support>;
+using Condition = std::variant<NoSlip, Velocity, Flow, Pressure, Traction, Resistance, Rcr, Fixed, Free, Support,
+                               Symmetry, VelocityProfile>;
 
-/// Exactly one of the keys no_slip, velocity, flow, pressure, traction, resistance, rcr, fixed, free, support:
-/// `outlet: {rcr: {...}}`; those without required keys may stand as a bare name, `wall_outer: free`.
+/// Exactly one of the keys no_slip, velocity, flow, pressure, traction, resistance, rcr, fixed, free, support,
+/// symmetry, profile: `outlet: {rcr: {...}}`; those without required keys may stand as a bare name, `wall_outer: free`.
 config::Schema<Condition> condition_schema();
 
 /// Name as in the case file: "no_slip", "velocity", ...

@@ -64,7 +64,7 @@ Vec3<double> mean_normal(const std::string& name, const FaceShape& shape) {
   return shape.normal;
 }
 
-std::vector<bool> rim_nodes(const FaceMesh& face) {
+std::vector<bool> rim_nodes(const FaceMesh& face, const SymmetryMarks& symmetry) {
   struct Edge {
     int forward = 0, backward = 0;  // triangles that run through it from the lower to the higher node, and back
   };
@@ -75,6 +75,9 @@ std::vector<bool> rim_nodes(const FaceMesh& face) {
       auto& edge = edges[std::minmax(a, b)];
       ++(a < b ? edge.forward : edge.backward);
     }
+  const auto on_symmetry = [&](std::int32_t a, std::int32_t b) {
+    return std::any_of(symmetry.begin(), symmetry.end(), [&](const auto& on) { return on[a] && on[b]; });
+  };
   std::vector<bool> rim(face.points.size(), false);
   for (const auto& [nodes, edge] : edges) {
     if (edge.forward + edge.backward > 2)
@@ -86,12 +89,14 @@ std::vector<bool> rim_nodes(const FaceMesh& face) {
       throw InputError("face " + face.name,
                        "neighbouring triangles are oriented against each other at " + place(face.points[nodes.first]),
                        "orient all triangles of the face outward");
-    if (edge.forward + edge.backward == 1) rim[nodes.first] = rim[nodes.second] = true;
+    if (edge.forward + edge.backward == 1 && !on_symmetry(nodes.first, nodes.second))
+      rim[nodes.first] = rim[nodes.second] = true;
   }
   for (std::size_t t = 0; t < face.edges.size(); ++t)
     for (int k = 0; k < 3; ++k) {
-      const auto& edge = edges.at(std::minmax(face.triangles[t][k], face.triangles[t][(k + 1) % 3]));
-      if (edge.forward + edge.backward == 1) rim[face.edges[t][k]] = true;
+      const auto a = face.triangles[t][k], b = face.triangles[t][(k + 1) % 3];
+      const auto& edge = edges.at(std::minmax(a, b));
+      if (edge.forward + edge.backward == 1 && !on_symmetry(a, b)) rim[face.edges[t][k]] = true;
     }
   return rim;
 }

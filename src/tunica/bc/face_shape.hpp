@@ -41,8 +41,16 @@ std::optional<std::string> planarity_warning(const std::string& name, const Face
 /// Unit normal for a condition that needs one. Throws InputError where none exists (planarity < 0.1: a tube's side).
 Vec3<double> mean_normal(const std::string& name, const FaceShape& shape);
 
-/// For each node: does it lie on the rim (an edge that belongs to one triangle)? Throws InputError when an edge belongs
-/// to more than two triangles or two neighbours are oriented against each other.
-std::vector<bool> rim_nodes(const FaceMesh& face);
+/// For each plane of symmetry that a face meets and each of its nodes: does the node lie on that plane?
+using SymmetryMarks = std::vector<std::vector<char>>;
+
+/// For each node: does it lie on the rim (an edge that belongs to one triangle)? Edges on a plane of symmetry are no
+/// rim: the opening goes on behind it. Throws InputError when an edge belongs to more than two triangles or two
+/// neighbours are oriented against each other.
+std::vector<bool> rim_nodes(const FaceMesh& face, const SymmetryMarks& symmetry = {});
+
+/// How far from planar a face may be that a condition takes for a plane: distance from the mean plane over the radius
+/// of a circle of its area.
+inline constexpr double plane_tolerance = 1e-4;
 
 }  // namespace tunica::bc

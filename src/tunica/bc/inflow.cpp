@@ -179,9 +179,9 @@ struct NodeWeights {
   std::vector<bool> rim;     // velocity zero: rim, and nodes without a triangle
 };
 
-NodeWeights node_weights(const FaceMesh& face, const Vec3<double>& normal) {
+NodeWeights node_weights(const FaceMesh& face, const Vec3<double>& normal, const SymmetryMarks& symmetry) {
   const std::size_t n = face.points.size();
-  NodeWeights weights{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), rim_nodes(face)};
+  NodeWeights weights{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), rim_nodes(face, symmetry)};
   if (std::find(weights.rim.begin(), weights.rim.end(), true) == weights.rim.end())
     throw InputError("face " + face.name, "it has no rim where the velocity can vanish",
                      "prescribe a flow on an opening, not on a closed surface");
@@ -207,13 +207,13 @@ NodeWeights node_weights(const FaceMesh& face, const Vec3<double>& normal) {
 
 }  // namespace
 
-InflowProfile inflow_profile(const FaceMesh& face, Profile profile) {
+InflowProfile inflow_profile(const FaceMesh& face, Profile profile, const SymmetryMarks& symmetry) {
   InflowProfile result;
   result.shape = face_shape(face);
   require_sound_triangles(face, result.shape);
   require_one_patch(face);
   result.normal = mean_normal(face.name, result.shape);
-  const NodeWeights weights = node_weights(face, result.normal);
+  const NodeWeights weights = node_weights(face, result.normal, symmetry);
   if (profile == Profile::parabolic) {
     result.phi = solve(surface_laplacian(face, weights.rim), weights.load, face.name);
   } else {

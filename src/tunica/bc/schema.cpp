@@ -1,7 +1,11 @@
 // The case-file keys of all boundary conditions.
 #include "tunica/config/schema.hpp"
 
+#include <fmt/format.h>
+
+#include "tunica/base/error.hpp"
 #include "tunica/bc/conditions.hpp"
+#include "tunica/bc/formula.hpp"
 
 namespace tunica::bc {
 
@@ -236,6 +240,57 @@ Schema<Support> Support::schema() {
       .by_default();
 }
 
+Schema<Symmetry> Symmetry::schema() {
+  return Schema<Symmetry>(
+      "symmetry",
+      "Plane of symmetry: nothing moves across the face, which has to be flat, and no traction acts "
+      "along it.");
+}
+
+namespace {
+
+void check_profile(const VelocityProfile& profile, Problems& problems) {
+  const int given = !profile.velocity.empty() + profile.speed.has_value() + profile.table.has_value();
+  if (given != 1)
+    problems.add("", given == 0 ? "says no velocity" : "says the velocity in more than one way",
+                 "give `velocity` (three formulas), `speed` (one formula) or `table` (a file)");
+  if (!profile.velocity.empty() && profile.velocity.size() != 3)
+    problems.add("velocity", fmt::format("has {} formulas", profile.velocity.size()),
+                 "give three: the components x, y, z, such as [\"4*y*(1-y)\", \"0\", \"0\"]");
+  const auto check_formula = [&](const char* key, const std::string& text) {
+    try {
+      const Formula formula(text);
+    } catch (const InputError& error) {
+      for (const auto& p : error.problems()) problems.add(key, p.what, p.remedy);
+    }
+  };
+  for (const auto& text : profile.velocity) check_formula("velocity", text);
+  if (profile.speed) check_formula("speed", *profile.speed);
+}
+
+}  // namespace
+
+Schema<VelocityProfile> VelocityProfile::schema() {
+  return Schema<VelocityProfile>("profile",
+                                 "Velocity as a function of place and time, by formulas of x, y, z (in `length_unit`) "
+                                 "and t (in s), or by a table of points.")
+      .texts("velocity", &VelocityProfile::velocity, "Formulas of the components x, y, z of the velocity")
+      .by_default()
+      .text("speed", &VelocityProfile::speed, "Formula of the speed into the domain, along the mean normal of the face")
+      .file("table", &VelocityProfile::table, "CSV file with the columns x, y, z, vx, vy, vz, a line for each point")
+      .unit("unit", &VelocityProfile::unit, dimension::velocity, "Unit of the velocity")
+      .unit("length_unit", &VelocityProfile::length_unit, dimension::length, "Unit of x, y and z")
+      .choice("interpolation", &VelocityProfile::interpolation,
+              {{"nearest", Interpolation::nearest}, {"linear", Interpolation::linear}},
+              "Of the table: the nearest point, or a linear function fitted to the nearest ones, which weigh the more "
+              "the closer they are")
+      .by_default()
+      .section("waveform", &VelocityProfile::course, waveform_schema(dimension::none),
+               "Factor over time; constant when left out")
+      .optional()
+      .check(check_profile);
+}
+
 Schema<Condition> condition_schema() {
   return Schema<Condition>("condition", "What happens at a face of the mesh.")
       .one_of()
@@ -248,7 +303,9 @@ Schema<Condition> condition_schema() {
       .alternative(Rcr::schema())
       .alternative(Fixed::schema())
       .alternative(Free::schema())
-      .alternative(Support::schema());
+      .alternative(Support::schema())
+      .alternative(Symmetry::schema())
+      .alternative(VelocityProfile::schema());
 }
 
 }  // namespace tunica::bc

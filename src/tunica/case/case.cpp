@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/bc/velocity_profile.hpp"
 #include "tunica/bc/waveform.hpp"
 #include "tunica/case/compared_law.hpp"
 #include "tunica/case/keys.hpp"
@@ -172,6 +173,24 @@ constexpr OutputUnit output_units[] = {
     {"flow", &OutputUnits::flow, dimension::volume_flow, "Volume flow"},
 };
 
+Schema<coupling::PressurePoint> pressure_point_schema() {
+  using coupling::PressurePoint;
+  return Schema<PressurePoint>("pressure_point", "A pressure that is held at one node of the lumen.")
+      .quantities("place", &PressurePoint::place, dimension::length, config::anything(),
+                  "The corner of an element that is nearest to it is taken")
+      .quantity("pressure", &PressurePoint::pressure, dimension::pressure, config::anything(), "Pressure there")
+      .by_default();
+}
+
+Schema<ProbePoint> probe_schema() {
+  return Schema<ProbePoint>("probe", "A place whose velocity, displacement and pressure are recorded.")
+      .quantities("place", &ProbePoint::place, dimension::length, config::anything(), "In the initial mesh")
+      .choice("region", &ProbePoint::region, {{"lumen", mesh::RegionKind::lumen}, {"wall", mesh::RegionKind::wall}},
+              "Where it lies; where both meet, only the pressure depends on it. The lumen when left out, or the wall "
+              "where there is no lumen")
+      .shorthand("place");
+}
+
 // --- the whole ----------------------------------------------------------------------------------------------------
 
 struct Part {
@@ -270,6 +289,10 @@ std::vector<Problem> check_waveforms(const Case& c) {
       if (const auto* flow = std::get_if<bc::Flow>(&condition)) check(bc::inflow(*flow));
       if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) check(bc::make_waveform(pressure->pressure));
       if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) check(bc::make_waveform(velocity->course));
+      if (const auto* profile = std::get_if<bc::VelocityProfile>(&condition)) {
+        check(bc::make_waveform(profile->course));
+        if (profile->table) const bc::PointTable table(*profile);
+      }
       if (const auto* traction = std::get_if<bc::Traction>(&condition)) check(bc::make_waveform(traction->course));
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
@@ -351,6 +374,14 @@ Schema<OutputSettings> OutputSettings::schema() {
           "interrupted")
       .by_default()
       .section("units", &OutputSettings::units, OutputUnits::schema(), "Units of fields and histories")
+      .by_default()
+      .map("points", &OutputSettings::points, probe_schema(),
+           "Places in the mesh whose velocity, displacement and pressure are recorded in points.csv, by name; each "
+           "moves "
+           "with the mesh")
+      .by_default()
+      .flag("forces", &OutputSettings::forces,
+            "Record the force of the blood on each face that it sticks to in forces.csv")
       .by_default();
 }
 
@@ -391,6 +422,8 @@ Schema<Case> Case::schema() {
       .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")
       .section("mesh_motion", &Case::mesh_motion, ale::Parameters::schema(),
                "How the mesh of the lumen follows the wall; for `fsi`, with its defaults when left out")
+      .section("pressure_point", &Case::pressure_point, pressure_point_schema(),
+               "Pressure at one place, for blood that is enclosed by faces that all prescribe its velocity")
       .map("boundary", &Case::boundary, bc::condition_schema(),
            "The condition of every face except the interface, by the name of the face")
       .section("time", &Case::time, coupling::TimeSettings::schema(), "Time stepping; for all but `static_wall`")
@@ -438,6 +471,17 @@ std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSetti
   for (std::size_t k = 0; k < std::max(lumen.size(), wall.size()); ++k)
     pairs.emplace_back(lumen[std::min(k, lumen.size() - 1)], wall[std::min(k, wall.size() - 1)]);
   return pairs;
+}
+
+std::vector<std::string> sticking_faces(const Case& c, const std::vector<std::string>& lumen_faces) {
+  const auto pairs = interface_pairs(c.meshes);
+  std::vector<std::string> faces;
+  for (const auto& name : lumen_faces)
+    if (std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == name; }) ||
+        std::any_of(c.boundary.begin(), c.boundary.end(),
+                    [&](const auto& b) { return b.first == name && std::holds_alternative<bc::NoSlip>(b.second); }))
+      faces.push_back(name);
+  return faces;
 }
 
 analysis::RunDescription describe(const Case& c) {

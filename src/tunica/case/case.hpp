@@ -96,11 +96,19 @@ struct OutputUnits {
   static config::Schema<OutputUnits> schema();
 };
 
+/// A place whose values are recorded in every step.
+struct ProbePoint {
+  Vec3<double> place{};                    ///< in the initial mesh [m]
+  std::optional<mesh::RegionKind> region;  ///< none: the lumen, or the wall where there is no lumen
+};
+
 struct OutputSettings {
   std::filesystem::path directory;      ///< created when it does not exist
   std::int64_t every = 1;               ///< steps between two fields of the time series
   std::int64_t checkpoint_every = 100;  ///< steps between two checkpoints
   OutputUnits units;
+  std::vector<std::pair<std::string, ProbePoint>> points;  ///< name, place
+  bool forces = false;                                     ///< of the blood on the walls
   static config::Schema<OutputSettings> schema();
 };
 
@@ -134,6 +142,7 @@ struct Case {
   coupling::NewtonSettings newton;
   coupling::LinearSettings linear;
   OutputSettings output;
+  std::optional<coupling::PressurePoint> pressure_point;  ///< for an enclosed flow
 
   /// Is there a prestress to be found? Not where `wall.prestress` names what was found.
   bool finds_prestress() const;
@@ -157,6 +166,9 @@ Case parse_case(const std::string& yaml, const std::filesystem::path& file);
 
 /// (lumen face, wall face) pairs of the interface, in which every face of either side occurs.
 std::vector<std::pair<std::string, std::string>> interface_pairs(const MeshSettings& meshes);
+
+/// Faces among `lumen_faces` that the blood sticks to, in that order: with no_slip, or of the interface.
+std::vector<std::string> sticking_faces(const Case& c, const std::vector<std::string>& lumen_faces);
 
 /// What the analysis of the results needs to know of the case that made them.
 analysis::RunDescription describe(const Case& c);

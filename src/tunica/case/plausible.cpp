@@ -182,7 +182,9 @@ class Checker {
     for (const auto& [face, condition] : case_.boundary) {
       const bool load =
           std::holds_alternative<bc::Pressure>(condition) || std::holds_alternative<bc::Traction>(condition);
-      if (std::holds_alternative<bc::Velocity>(condition) || (load && may_be_opening(face))) return false;
+      if (std::holds_alternative<bc::Velocity>(condition) || std::holds_alternative<bc::VelocityProfile>(condition) ||
+          (load && may_be_opening(face)))
+        return false;
       any = any || std::holds_alternative<bc::Resistance>(condition) || std::holds_alternative<bc::Rcr>(condition);
     }
     return any;
@@ -221,7 +223,8 @@ class Checker {
     bool flow_is_given = false;
     for (const auto& [face, condition] : case_.boundary) {
       flow_is_given = flow_is_given || std::holds_alternative<bc::Flow>(condition) ||
-                      std::holds_alternative<bc::Velocity>(condition);
+                      std::holds_alternative<bc::Velocity>(condition) ||
+                      std::holds_alternative<bc::VelocityProfile>(condition);
       if (const auto* flow = std::get_if<bc::Flow>(&condition)) inflow += bc::inflow(*flow).mean();
       if (const auto* given = std::get_if<bc::Pressure>(&condition); given && may_be_opening(face))
         pressure = std::max(pressure, bc::make_waveform(given->pressure).mean());

@@ -18,6 +18,7 @@ const bc::TableSource* ending_table(const bc::Condition& condition) {
   if (const auto* flow = std::get_if<bc::Flow>(&condition)) course = &flow->course;
   if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) course = &pressure->pressure;
   if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) course = &velocity->course;
+  if (const auto* profile = std::get_if<bc::VelocityProfile>(&condition)) course = &profile->course;
   if (const auto* traction = std::get_if<bc::Traction>(&condition)) course = &traction->course;
   const auto* table = course != nullptr ? std::get_if<bc::TableSource>(&course->source) : nullptr;
   return table != nullptr && !table->options.periodic ? table : nullptr;

@@ -1,12 +1,16 @@
 #include "tunica/coupling/boundaries.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "tunica/base/error.hpp"
+#include "tunica/bc/velocity_profile.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/whole_face.hpp"
 #include "tunica/fluid/boundary.hpp"
@@ -31,6 +35,25 @@ Vec3<double> mean_normal(const distributed::DistributedMesh& mesh, const distrib
   const Vec3<double> total{{sum[0], sum[1], sum[2]}};
   const double size = norm(total);
   return size > 0 ? (1.0 / size) * total : total;
+}
+
+// Largest distance of its nodes from the mean plane, over the radius of a circle of its area: 0 for a plane.
+double out_of_plane(const distributed::DistributedMesh& mesh, const distributed::Face& face,
+                    const Vec3<double>& normal) {
+  if (norm(normal) < 0.5) return std::numeric_limits<double>::infinity();  // a closed surface
+  double sums[4] = {}, farthest = 0;                                       // area, area times centroid
+  for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
+    const auto& n = face.triangles[t];
+    const Vec3<double> x[3] = {mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]};
+    const double area = fluid::area(x);
+    sums[0] += area;
+    for (int i = 0; i < 3; ++i) sums[1 + i] += area / 3.0 * (x[0][i] + x[1][i] + x[2][i]);
+  }
+  parallel::global_sum(mesh.comm, sums);
+  const Vec3<double> centroid{{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]}};
+  for (const auto& t : face.triangles)
+    for (const auto node : t) farthest = std::max(farthest, std::abs(dot(mesh.points[node] - centroid, normal)));
+  return parallel::global_max(mesh.comm, farthest) / std::sqrt(sums[0] / std::numbers::pi);
 }
 
 // Directions in which a node is held; the free motions are what is orthogonal to them.
@@ -90,11 +113,17 @@ void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& mat
 struct Boundaries::Builder {
   Boundaries& b;
   const distributed::DistributedMesh& mesh;
-  std::vector<Held> held, mesh_held;
+  std::vector<Held> held, mesh_held, symmetric;  // `symmetric`: by planes of symmetry alone
+  std::vector<std::size_t> symmetry_faces{};
   std::vector<char> interface_node;
 
   explicit Builder(Boundaries& boundaries)
-      : b(boundaries), mesh(b.mesh_), held(mesh.nodes()), mesh_held(mesh.nodes()), interface_node(mesh.nodes(), 0) {
+      : b(boundaries),
+        mesh(b.mesh_),
+        held(mesh.nodes()),
+        mesh_held(mesh.nodes()),
+        symmetric(mesh.nodes()),
+        interface_node(mesh.nodes(), 0) {
     for (std::int32_t i = 0; i < mesh.nodes(); ++i)
       if (mesh.host[i] != i) {
         held[i].all();  // the host moves for it
@@ -135,11 +164,32 @@ struct Boundaries::Builder {
   void prescribe(const distributed::Face& face, const VectorField& velocity) {
     const std::size_t field = b.velocity_fields_.size();
     b.velocity_fields_.push_back(velocity);
-    hold_inner(face, [&](std::int32_t node) { b.field_nodes_.push_back({node, field}); });
+    hold_inner(face, [&](std::int32_t node) { b.field_nodes_.push_back({node, field, identity<double>()}); });
+  }
+
+  // What an opening prescribes does not cross a plane of symmetry that it meets.
+  void project_on_symmetry() {
+    for (auto& p : b.prescribed_) p.velocity = symmetric[p.node].P * p.velocity;
+    for (auto& p : b.field_nodes_) p.allowed = symmetric[p.node].P;
+  }
+
+  bc::SymmetryMarks symmetry_marks(const WholeFace& whole) const {
+    bc::SymmetryMarks marks;
+    for (const auto f : symmetry_faces) {
+      std::vector<double> on(whole.points.size(), 0.0);
+      for_each_node(mesh.faces[f], [&](std::int32_t node) {
+        if (const auto k = whole.find(mesh.global_ids[node]); k >= 0) on[static_cast<std::size_t>(k)] = 1.0;
+      });
+      parallel::global_sum(mesh.comm, on);
+      marks.emplace_back(on.size());
+      std::transform(on.begin(), on.end(), marks.back().begin(), [](double n) { return n > 0 ? 1 : 0; });
+    }
+    return marks;
   }
 
   // Of several nearest nodes the one with the lowest original number, on any number of ranks.
-  void fix_pressure_near(const Vec3<double>& point) {
+  void hold_pressure(const PressurePoint& held_point) {
+    const Vec3<double>& point = held_point.place;
     double nearest = std::numeric_limits<double>::max();
     std::vector<std::int32_t> nodes;
     for (const auto& region : mesh.regions)
@@ -154,7 +204,11 @@ struct Boundaries::Builder {
       if (norm(mesh.points[node] - point) <= nearest) lowest = std::min(lowest, mesh.original_ids[node]);
     lowest = parallel::global_min(mesh.comm, lowest);
     for (const auto node : nodes)
-      if (mesh.original_ids[node] == lowest) held[node].pressure = true;
+      if (mesh.original_ids[node] == lowest) {
+        held[node].pressure = true;
+        b.pressure_node_ = node;
+      }
+    b.held_pressure_ = held_point.pressure;
   }
 
   void operator()(std::size_t index, const bc::NoSlip&) {
@@ -165,8 +219,10 @@ struct Boundaries::Builder {
   }
   void operator()(std::size_t index, const bc::Flow& c) {
     const WholeFace whole = gather_face(mesh, mesh.faces[index]);
-    const auto profile = parallel::agree(mesh.comm, [&] { return bc::inflow_profile(whole.mesh(), c.profile); });
+    const auto marks = symmetry_marks(whole);
+    const auto profile = parallel::agree(mesh.comm, [&] { return bc::inflow_profile(whole.mesh(), c.profile, marks); });
     const auto flow = parallel::agree(mesh.comm, [&] { return bc::inflow(c); });
+    parallel::agree(mesh.comm, [&] { require_upright(mesh.faces[index], profile.normal); });
     prescribe(mesh.faces[index], flow, [&](std::int32_t node) {
       return profile.velocity(static_cast<std::size_t>(whole.find(mesh.global_ids[node])), 1.0);
     });
@@ -199,6 +255,43 @@ struct Boundaries::Builder {
     });
   }
   void operator()(std::size_t, const bc::Free&) {}
+  void operator()(std::size_t index, const bc::Symmetry&) {
+    const auto& face = mesh.faces[index];
+    const Vec3<double> normal = mean_normal(mesh, face);
+    const double off = out_of_plane(mesh, face, normal);
+    if (!(off <= bc::plane_tolerance))
+      throw InputError(
+          "boundary." + face.name,
+          fmt::format("is a plane of symmetry, but its nodes are up to {:.3g} % of its radius off its mean "
+                      "plane; {:g} % is allowed",
+                      100 * off, 100 * bc::plane_tolerance),
+          "give the condition to flat faces, each a face of its own");
+    symmetry_faces.push_back(index);
+    for_each_node(face, [&](std::int32_t node) {
+      held[mesh.host[node]].direction(normal);
+      symmetric[mesh.host[node]].direction(normal);
+    });
+  }
+  void operator()(std::size_t index, const bc::VelocityProfile& c) {
+    const auto& face = mesh.faces[index];
+    const auto course = waveform(c.course);
+    if (c.table) {
+      const auto table = parallel::agree(mesh.comm, [&] { return bc::PointTable(c); });
+      prescribe(face, course, [&](std::int32_t node) { return table.velocity(mesh.points[node]); });
+      return;
+    }
+    prescribe(face, [course, velocity = bc::velocity_by_formula(c, mean_normal(mesh, face))](
+                        const Vec3<double>& x, double t) { return course.value(t) * velocity(x, t); });
+  }
+
+  // The flow of a profile along n is exact only where no plane of symmetry takes a part of n away.
+  void require_upright(const distributed::Face& face, const Vec3<double>& normal) const {
+    for_each_node(face, [&](std::int32_t node) {
+      if (norm(symmetric[node].P * normal - normal) > 1e-3 && !interface_node[node])
+        throw InputError("boundary." + face.name, "the flow meets a plane of symmetry at an angle",
+                         "cut the opening at right angles to the plane, or prescribe a `profile`");
+    });
+  }
   void operator()(std::size_t index, const bc::Support& c) {
     Load load{.face = index, .kind = Load::Kind::support};
     load.support = parallel::agree(mesh.comm, [&] { return support_of(mesh.faces[index], c); });
@@ -238,15 +331,18 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   Builder builder(*this);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) index_of[mesh.faces[f].name] = f;
-  const auto apply = [&](bool no_slip) {
+  const auto apply = [&](auto wanted) {
     for (const auto& [name, condition] : input.conditions)
-      if (std::holds_alternative<bc::NoSlip>(condition) == no_slip) {
+      if (wanted(condition)) {
         mesh.face(name);  // throws where there is no such face
         std::visit([&, index = index_of[name]](const auto& c) { builder(index, c); }, condition);
       }
   };
-  apply(false);
-  apply(true);
+  const auto symmetry = [](const bc::Condition& c) { return std::holds_alternative<bc::Symmetry>(c); };
+  const auto no_slip = [](const bc::Condition& c) { return std::holds_alternative<bc::NoSlip>(c); };
+  apply(symmetry);
+  apply([&](const bc::Condition& c) { return !symmetry(c) && !no_slip(c); });
+  apply(no_slip);
   for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), field);
   for (const auto& [name, field] : input.traction_fields) {
     mesh.face(name);
@@ -265,6 +361,7 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
       builder.for_each_node(mesh.face(name), [&](std::int32_t node) { still[node] = 1; });
   std::erase_if(prescribed_, [&](const PrescribedNode& p) { return still[p.node] != 0; });
   std::erase_if(field_nodes_, [&](const FieldNode& p) { return still[p.node] != 0; });
+  builder.project_on_symmetry();
 
   // Wall nodes of the displacement element, and wall-only parts of the mesh without fluid, have no pressure unknown.
   std::vector<char> has_pressure(mesh.nodes(), 0);
@@ -273,15 +370,26 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
       for (const auto& element : region.elements)
         for (const auto node : element) has_pressure[node] = 1;
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
-  if (input.pressure_level) builder.fix_pressure_near(*input.pressure_level);
+  if (input.pressure_point) builder.hold_pressure(*input.pressure_point);
 
+  // The mesh slides along openings and flat walls; curved walls at rest hold it.
+  const auto still_face = [&](const std::string& name) {
+    return std::any_of(input.conditions.begin(), input.conditions.end(),
+                       [&](const auto& c) { return c.first == name && no_slip(c.second); });
+  };
   for (const auto& face : mesh.faces) {
     if (mesh.regions[face.region].kind != mesh::RegionKind::lumen) continue;
     const bool coupled = std::any_of(input.interfaces.begin(), input.interfaces.end(),
                                      [&](const auto& pair) { return pair.first == face.name; });
     if (coupled) continue;
     const Vec3<double> normal = mean_normal(mesh, face);
-    builder.for_each_node(face, [&](std::int32_t node) { builder.mesh_held[node].direction(normal); });
+    const bool rigid = still_face(face.name) && !(out_of_plane(mesh, face, normal) <= bc::plane_tolerance);
+    builder.for_each_node(face, [&](std::int32_t node) {
+      if (rigid)
+        builder.mesh_held[node].all();
+      else
+        builder.mesh_held[node].direction(normal);
+    });
   }
 
   constraints_ = assembly::Constraints(pattern, complete_on_ghosts(mesh, builder.held));
@@ -300,9 +408,10 @@ void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const 
   for (const auto& p : prescribed_)
     for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = values[p.waveform] * p.velocity[i];
   for (const auto& p : field_nodes_) {
-    const Vec3<double> v = velocity_fields_[p.field](mesh_.points[p.node], t);
+    const Vec3<double> v = p.allowed * velocity_fields_[p.field](mesh_.points[p.node], t);
     for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = v[i];
   }
+  if (pressure_node_ >= 0) velocity_pressure[at(pressure_node_) + 3] = held_pressure_;
   mesh_.halo.update(velocity_pressure, 4);
 }
 

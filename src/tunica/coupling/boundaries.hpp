@@ -11,6 +11,7 @@
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/bc/conditions.hpp"
 #include "tunica/coupling/loop_views.hpp"
+#include "tunica/coupling/settings.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/wall/surface.hpp"
@@ -26,8 +27,7 @@ struct LoadCoefficients {
 /// A vector as a function of the reference position [m] and the time [s]. Called on every rank that holds the node.
 using VectorField = std::function<Vec3<double>(const Vec3<double>&, double)>;
 
-/// A lumen face may have the condition `fixed` here, which then holds the velocity: along the normal it makes a plane
-/// of symmetry (free slip).
+/// A lumen face may have the condition `fixed` here, which then holds the velocity.
 struct BoundaryInput {
   std::vector<std::pair<std::string, bc::Condition>> conditions;  ///< face name, condition
   std::vector<std::pair<std::string, std::string>> interfaces;    ///< (lumen face, wall face)
@@ -41,8 +41,8 @@ struct BoundaryInput {
   /// Wall face, pressure [Pa] at its nodes [local node]: follows the deformed face, each triangle takes the mean of its
   /// nodes. Statics multiplies it by its load factor.
   std::vector<std::pair<std::string, std::vector<double>>> wall_pressures;
-  /// Lumen flow with prescribed velocity all around: p = 0 at the lumen node nearest to this point [m].
-  std::optional<Vec3<double>> pressure_level;
+  /// Lumen flow with prescribed velocity all around.
+  std::optional<PressurePoint> pressure_point;
 };
 
 class Boundaries {
@@ -57,7 +57,8 @@ class Boundaries {
   /// Free motions of lumen nodes in the mesh motion: the interface is led by the wall, openings slide in their plane.
   const std::vector<assembly::NodeConstraint>& mesh_constraints() const { return mesh_constraints_; }
 
-  /// Sets the prescribed velocities of time t [s] in `velocity_pressure` ([local node][4]).
+  /// Sets the prescribed velocities of time t [s], and the pressure that is held, in `velocity_pressure` ([local
+  /// node][4]).
   void prescribe(double t, std::span<double> velocity_pressure) const;
 
   /// Adds all surface loads at time t to the residual ([local node][4]) and, where `matrix` is given, their tangent.
@@ -90,7 +91,8 @@ class Boundaries {
   };
   struct FieldNode {
     std::int32_t node;
-    std::size_t field;  ///< in velocity_fields_
+    std::size_t field;     ///< in velocity_fields_
+    Mat3<double> allowed;  ///< projector on the planes of symmetry that the node lies on
   };
   struct TractionField {
     std::size_t face;
@@ -126,6 +128,8 @@ class Boundaries {
   std::vector<PrescribedNode> prescribed_;
   std::vector<VectorField> velocity_fields_;
   std::vector<FieldNode> field_nodes_;
+  std::int32_t pressure_node_ = -1;  ///< owned, whose pressure is held; -1: not on this rank
+  double held_pressure_ = 0.0;       ///< [Pa]
   std::vector<Load> loads_;
   std::vector<TractionField> traction_fields_;
   std::vector<OutletFace> outlets_;

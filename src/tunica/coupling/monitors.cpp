@@ -18,6 +18,13 @@ using mesh::RegionKind;
 
 namespace {
 
+bool blood_sticks(const BoundaryInput& boundary, const std::string& face) {
+  return std::any_of(boundary.interfaces.begin(), boundary.interfaces.end(),
+                     [&](const auto& pair) { return pair.first == face; }) ||
+         std::any_of(boundary.conditions.begin(), boundary.conditions.end(),
+                     [&](const auto& c) { return c.first == face && std::holds_alternative<bc::NoSlip>(c.second); });
+}
+
 double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
@@ -48,6 +55,29 @@ Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.me
     else if (on_other[i] && kind_[i] == NodeKind::inner)
       kind_[i] = NodeKind::opening;
   }
+  find_sticking_faces();
+}
+
+void Monitors::find_sticking_faces() {
+  const auto& mesh = problem_.mesh();
+  std::vector<int> faces_of(static_cast<std::size_t>(mesh.owned_nodes), 0);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto& face = mesh.faces[f];
+    if (!blood_sticks(problem_.input().boundary, face.name) || mesh.regions[face.region].kind != RegionKind::lumen)
+      continue;
+    std::set<std::int32_t> nodes;
+    for (const auto* cells : {&face.triangles, &face.edges})
+      for (const auto& cell : *cells)
+        for (const auto node : cell)
+          if (node < mesh.owned_nodes) nodes.insert(node);
+    auto& sticking = sticking_.emplace_back(StickingFace{f, {}});
+    for (const auto node : nodes) {
+      sticking.nodes.emplace_back(node, 1.0);
+      ++faces_of[node];
+    }
+  }
+  for (auto& face : sticking_)
+    for (auto& [node, share] : face.nodes) share = 1.0 / faces_of[node];
 }
 
 void Monitors::faces(StepRecord& record) const {
@@ -208,8 +238,7 @@ void Monitors::wall_elements(StepRecord& record) const {
 }
 
 // The residual of the elements at a node is the force that acts on them there.
-void Monitors::powers(StepRecord& record) const {
-  const auto parts = problem_.partial_residuals();
+void Monitors::powers(const Problem::PartialResiduals& parts, StepRecord& record) const {
   const double* v = problem_.fields().velocity_pressure;
   double sums[4] = {};  // openings, wall loads, interface lumen, interface wall
   for (std::size_t i = 0; i < kind_.size(); ++i) {
@@ -238,6 +267,20 @@ void Monitors::powers(StepRecord& record) const {
   record.interface_power_wall = sums[3];
 }
 
+void Monitors::wall_forces(const Problem::PartialResiduals& parts, StepRecord& record) const {
+  std::vector<double> sums;
+  for (const auto& face : sticking_) {
+    double force[3] = {};
+    for (const auto& [node, share] : face.nodes)
+      for (std::size_t c = 0; c < 3; ++c) force[c] -= share * parts.lumen[at(node) + c];
+    sums.insert(sums.end(), force, force + 3);
+  }
+  parallel::global_sum(problem_.mesh().comm, sums);
+  for (std::size_t k = 0; k < sticking_.size(); ++k)
+    record.wall_forces.push_back(
+        {problem_.mesh().faces[sticking_[k].face].name, {{sums[3 * k], sums[3 * k + 1], sums[3 * k + 2]}}});
+}
+
 void Monitors::extremes(StepRecord& record) const {
   const auto& mesh = problem_.mesh();
   const FieldsView f = problem_.fields();
@@ -256,7 +299,11 @@ StepRecord Monitors::evaluate(double dt) const {
   faces(record);
   if (problem_.input().fluid) lumen_elements(dt, record);
   if (problem_.input().wall) wall_elements(record);
-  if (dt > 0) powers(record);
+  if (dt > 0) {
+    const auto parts = problem_.partial_residuals();
+    powers(parts, record);
+    wall_forces(parts, record);
+  }
   extremes(record);
   return record;
 }

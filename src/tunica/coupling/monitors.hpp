@@ -16,6 +16,12 @@ struct FaceRecord {
   double area = 0;           ///< [m^2]
 };
 
+/// Force of the blood on a face that it sticks to, at t_{n+alpha_f}.
+struct WallForce {
+  std::string name;
+  Vec3<double> force{};  ///< [N]
+};
+
 /// Values at t_{n+alpha_f}, where the equations are balanced. Fields of a region that is not there are zero.
 struct StepRecord {
   std::vector<FaceRecord> faces;  ///< of the lumen, in the order of the mesh
@@ -38,6 +44,10 @@ struct StepRecord {
   double max_displacement = 0;  ///< of all nodes, the lumen mesh included [m]
   double max_velocity = 0;      ///< [m/s]
   double mesh_quality = 1;      ///< smallest of the moving lumen mesh relative to the initial one
+
+  /// Of the lumen faces with no_slip and of the interface, in the order of the mesh. What the equations leave at the
+  /// nodes of the face (consistent nodal forces); a node of several such faces counts for each in equal parts.
+  std::vector<WallForce> wall_forces;
 };
 
 /// What does not change from step to step.
@@ -53,16 +63,24 @@ class Monitors {
  private:
   enum class NodeKind : char { inner, opening, interface, rim, wall };
 
+  void find_sticking_faces();
   void faces(StepRecord& record) const;
   void quadratic_lumen_elements(const distributed::Region& region, double (&sums)[4]) const;
   void lumen_elements(double dt, StepRecord& record) const;
   void quadratic_wall_elements(std::size_t region, double (&sums)[3]) const;
   void wall_elements(StepRecord& record) const;
-  void powers(StepRecord& record) const;
+  void powers(const Problem::PartialResiduals& parts, StepRecord& record) const;
+  void wall_forces(const Problem::PartialResiduals& parts, StepRecord& record) const;
   void extremes(StepRecord& record) const;
 
   const Problem& problem_;
   std::vector<NodeKind> kind_;  ///< of the owned nodes
+  /// Faces that the blood sticks to, with their owned nodes and what part of a node's force each has.
+  struct StickingFace {
+    std::size_t face;
+    std::vector<std::pair<std::int32_t, double>> nodes;
+  };
+  std::vector<StickingFace> sticking_;
 };
 
 }  // namespace tunica::coupling

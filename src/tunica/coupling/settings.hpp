@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tunica/base/tensor.hpp"
 #include "tunica/config/schema.hpp"
 
 namespace tunica::coupling {
@@ -123,6 +124,12 @@ struct TimeSettings {
   std::int64_t most_steps() const { return cycles ? cycles->most * steps_per_cycle() : steps; }
 
   static config::Schema<TimeSettings> schema();
+};
+
+/// A pressure that is held at one node, for blood that is enclosed by given velocities.
+struct PressurePoint {
+  Vec3<double> place{};   ///< the lumen corner nearest to it in the initial mesh is taken [m]
+  double pressure = 0.0;  ///< [Pa]
 };
 
 /// Of the fixed point (prestress.hpp).

@@ -78,6 +78,8 @@ void PosedCase::pose(const ReadCase& c, MPI_Comm comm) {
   problem.emplace(mesh, artifacts::problem_input(c.settings));
   monitors.emplace(*problem);
   fields.emplace(*problem, c.settings);
+  const auto places = artifacts::probe_places(c.settings);
+  probes.emplace(mesh, places);
 }
 
 void start_from(const fs::path& file, const case_file::Case& c, const distributed::DistributedMesh& mesh,

@@ -15,6 +15,7 @@
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/coupling/monitors.hpp"
+#include "tunica/coupling/probes.hpp"
 #include "tunica/coupling/problem.hpp"
 
 namespace tunica::stages {
@@ -37,6 +38,7 @@ struct PosedCase {
   std::optional<coupling::Problem> problem;
   std::optional<coupling::Monitors> monitors;
   std::optional<artifacts::OutputFields> fields;
+  std::optional<coupling::Probes> probes;  ///< at the points of the case
 
   PosedCase() = default;
   PosedCase(const PosedCase&) = delete;

@@ -59,7 +59,8 @@ std::vector<std::string> notes(const Law& law) {
 
 bool is_anisotropic(const LawParameters& parameters) {
   return !std::holds_alternative<NeoHookeParameters>(parameters) &&
-         !std::holds_alternative<MooneyRivlinParameters>(parameters);
+         !std::holds_alternative<MooneyRivlinParameters>(parameters) &&
+         !std::holds_alternative<StVenantKirchhoffParameters>(parameters);
 }
 
 std::vector<Vec3<double>> mean_fibre_directions(const LawParameters& parameters) {

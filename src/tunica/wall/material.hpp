@@ -15,14 +15,15 @@
 #include "tunica/wall/materials/hgo.hpp"
 #include "tunica/wall/materials/mooney_rivlin.hpp"
 #include "tunica/wall/materials/neo_hooke.hpp"
+#include "tunica/wall/materials/st_venant_kirchhoff.hpp"
 
 namespace tunica::wall {
 
-using Law = std::variant<NeoHooke, MooneyRivlin, StructureTensorLaw, Fung, DiscreteFibreLaw>;
+using Law = std::variant<NeoHooke, MooneyRivlin, StructureTensorLaw, Fung, DiscreteFibreLaw, StVenantKirchhoff>;
 
 /// Parameters of one of the laws, as the case file gives them.
 using LawParameters = std::variant<NeoHookeParameters, MooneyRivlinParameters, HgoParameters, GohParameters,
-                                   FungParameters, DfdParameters>;
+                                   FungParameters, DfdParameters, StVenantKirchhoffParameters>;
 
 /// Prepares a law; the parameters must have passed the checks of their schema. Throws InputError when a rule of fibre
 /// directions cannot keep its tolerance.

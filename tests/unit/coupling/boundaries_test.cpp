@@ -8,6 +8,7 @@
 
 #include "small_cases.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/nodal.hpp"
 #include "tunica/fluid/boundary.hpp"
 
 namespace tunica::coupling {
@@ -315,13 +316,94 @@ TEST(Boundaries, TangentOfWallLoadsIsTheirDerivative) {
   }
 }
 
+// Nodes on one, two and three planes keep two, one and no free motion; the mesh slides likewise.
+TEST(Boundaries, PlanesOfSymmetryTakeOneDirectionEach) {
+  for (const bool quadratic : {false, true}) {
+    auto in = test::half_channel(bc::Symmetry{});
+    const Bound b(test::turned_box(quadratic), in);
+    std::map<std::int32_t, int> planes;
+    for (const auto& [name, condition] : in.conditions) {
+      if (!std::holds_alternative<bc::Symmetry>(condition)) continue;
+      std::map<std::int32_t, bool> nodes;
+      for (const auto& t : b.mesh.face(name).triangles)
+        for (const auto node : t) nodes[node] = true;
+      for (const auto& t : b.mesh.face(name).edges)
+        for (const auto node : t) nodes[node] = true;
+      for (const auto& [node, one] : nodes) planes[node] += 1;
+    }
+    std::map<std::int32_t, bool> still;
+    for (const auto& t : b.mesh.face("y_max").triangles)
+      for (const auto node : t) still[node] = true;
+    for (const auto& t : b.mesh.face("y_max").edges)
+      for (const auto node : t) still[node] = true;
+    const auto constraints = b.constraints();
+    for (const auto& [node, count] : planes) {
+      if (node >= b.mesh.owned_nodes) continue;
+      const auto c = constraints.find(node);
+      ASSERT_NE(c, constraints.end());
+      EXPECT_NEAR(trace(c->second.P), still.contains(node) ? 0 : 3 - count, 1e-12);
+    }
+    for (const auto& c : b.boundaries.mesh_constraints())
+      if (c.node < b.mesh.owned_nodes && planes.contains(c.node) && !still.contains(c.node)) {
+        EXPECT_LE(trace(c.P), 2.0 + 1e-12);
+      }
+  }
+}
+
+// The profile of an opening goes on behind a plane of symmetry and carries the whole flow.
+TEST(Boundaries, FlowBesidePlanesOfSymmetryIsExact) {
+  const Bound b(test::turned_box(false),
+                test::half_channel(bc::Flow{.course = bc::WaveformInput{1e-5}, .positive = bc::Flow::Sign::inflow}));
+  std::vector<double> v(at(b.mesh.nodes()), 0.0);
+  b.boundaries.prescribe(0.0, v);
+  EXPECT_NEAR(outflow(b.mesh, "x_min", v), -1e-5, 1e-17);
+  double largest = 0;
+  for (const auto& t : b.mesh.face("y_min").triangles)
+    for (const auto node : t) largest = std::max(largest, norm(vector_at(v.data(), node)));
+  // Fully developed between a wall and its mirror image: 3/2 of the mean on the plane (linear elements: a little less).
+  EXPECT_NEAR(parallel::global_max(MPI_COMM_WORLD, largest), 1.5 * 1e-5 / (0.02 * 0.01), 0.05 * 0.075);
+}
+
+// What is prescribed loses its part across the planes that it meets.
+TEST(Boundaries, ProfilesByFormulaStayInPlanesOfSymmetry) {
+  bc::VelocityProfile profile;
+  profile.velocity = {"1 + 10*x", "t", "2"};
+  auto in = test::half_channel(profile);
+  const Bound b(test::turned_box(true), in);
+  std::vector<double> v(at(b.mesh.nodes()), 0.0);
+  b.boundaries.prescribe(3.0, v);
+  const Vec3<double> n2{{-0.8, 0.6, 0.0}};
+  std::map<std::int32_t, int> on;
+  const std::pair<const char*, int> faces[] = {{"x_min", 1}, {"y_min", 2}, {"z_min", 4}, {"z_max", 4}, {"y_max", 8}};
+  for (const auto& [name, mark] : faces)
+    for (const auto& t : b.mesh.face(name).triangles)
+      for (const auto node : t) on[node] |= mark;
+  int seen = 0;
+  for (const auto& [node, marks] : on) {
+    if (node >= b.mesh.owned_nodes || (marks & 1) == 0 || (marks & 8) != 0) continue;
+    const auto& x = b.mesh.points[node];
+    Vec3<double> expected{{1 + 10 * x[0], 3.0, 2.0}};
+    const Vec3<double> e1{{0.36, 0.48, -0.8}}, e3 = cross(e1, n2);
+    if ((marks & 2) != 0) expected = expected - dot(expected, n2) * n2;
+    if ((marks & 4) != 0) expected = expected - dot(expected, e3) * e3;
+    EXPECT_LE(norm(vector_at(v.data(), node) - expected), 1e-12);
+    ++seen;
+  }
+  EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, std::int64_t{seen}), 0);
+}
+
+TEST(Boundaries, CurvedFacesAreNoPlaneOfSymmetry) {
+  EXPECT_THROW(Bound(test::fluid_tube(), flow_input(test::pressure(1.0), test::pressure(0.0), bc::Symmetry{})),
+               InputError);
+}
+
 TEST(Boundaries, TangentOfBackflowIsItsDerivative) {
   expect_consistent(test::fluid_tube(), flow_input(test::pressure(1e3), bc::Resistance{.resistance = 1e8}));
 }
 
 TEST(Boundaries, PressureLevelIsHeldAtOneNode) {
   auto in = flow_input(bc::Velocity{.value = {{0, 0, 1}}}, bc::Velocity{.value = {{0, 0, 1}}});
-  in.pressure_level = Vec3<double>{{0.001, 0.001, 0.016}};
+  in.pressure_point = PressurePoint{{{0.001, 0.001, 0.016}}, 250.0};
   const Bound b(test::fluid_tube(), in);
   std::int64_t held = 0;
   for (const auto& [node, c] : b.constraints())
@@ -330,6 +412,11 @@ TEST(Boundaries, PressureLevelIsHeldAtOneNode) {
       EXPECT_LE(norm(b.mesh.points[node] - Vec3<double>{{0.0, 0.0, 0.015}}), 1e-9);
     }
   EXPECT_EQ(parallel::global_sum(MPI_COMM_WORLD, held), 1);
+  std::vector<double> v(at(b.mesh.nodes()), 0.0);
+  b.boundaries.prescribe(0.0, v);
+  double sum = 0;
+  for (std::int32_t i = 0; i < b.mesh.owned_nodes; ++i) sum += v[at(i) + 3];
+  EXPECT_EQ(parallel::global_sum(MPI_COMM_WORLD, sum), 250.0);
 }
 
 // k_s grows linearly along the tube, so that the mean of the nodes integrates it exactly on every triangle.

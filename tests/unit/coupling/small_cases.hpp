@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -49,6 +50,30 @@ inline bc::Condition fixed_along_normal() {
   bc::Fixed c;
   c.directions = {false, false, false, true, false};
   return c;
+}
+
+/// Axes of turned_box().
+inline std::array<Vec3<double>, 3> turned_axes() {
+  const Vec3<double> e1{{0.36, 0.48, -0.8}}, e2{{-0.8, 0.6, 0.0}};
+  return {e1, e2, cross(e1, e2)};
+}
+
+/// A box of 0.03 m x 0.02 m x 0.01 m that is turned, so that no plane of symmetry lies along an axis.
+inline mesh::MeshData turned_box(bool quadratic) {
+  auto data = mesh::box(3, 4, 2, {{0.03, 0.02, 0.01}}, mesh::RegionKind::lumen);
+  const auto [e1, e2, e3] = turned_axes();
+  for (auto& x : data.points) x = x[0] * e1 + x[1] * e2 + x[2] * e3;
+  if (quadratic) mesh::add_edge_nodes(data);
+  return data;
+}
+
+/// Half of a channel between planes of symmetry: the wall is y_max, the flow goes on to x_max.
+inline coupling::BoundaryInput half_channel(bc::Condition inlet) {
+  coupling::BoundaryInput in;
+  in.fluid = blood();
+  in.conditions = {{"x_min", std::move(inlet)}, {"x_max", pressure(0.0)},  {"y_min", bc::Symmetry{}},
+                   {"y_max", bc::NoSlip{}},     {"z_min", bc::Symmetry{}}, {"z_max", bc::Symmetry{}}};
+  return in;
 }
 
 /// Tube with a wall that is held at its ends: `inlet` and `outlet` are the conditions of the lumen's openings.

@@ -22,6 +22,10 @@ MooneyRivlin example<MooneyRivlin>() {
   return {.c1 = 20e3, .c2 = 5e3};
 }
 template <>
+StVenantKirchhoff example<StVenantKirchhoff>() {
+  return {.shear_modulus = 50e3};
+}
+template <>
 StructureTensorLaw example<StructureTensorLaw>() {
   const auto family = [](double k1, double k2, double angle, double kappa) {
     GohParameters::Family f{{k1, k2}, angle, {}, {}, {}};
@@ -79,6 +83,15 @@ Symmetric<T> isochoric(const Mat3<T>& F) {
   return pow(determinant(F), -2.0 / 3.0) * right_cauchy_green(F);
 }
 
+/// With the part outside the isochoric split.
+template <class L, class T>
+T whole_energy(const L& law, const Mat3<T>& F) {
+  T psi = law.energy(isochoric(F));
+  if constexpr (can_be_unsplit<L>)
+    if (law.has_unsplit_part()) psi = psi + law.unsplit_energy(right_cauchy_green(F));
+  return psi;
+}
+
 template <class L>
 double scale_of(const L& law) {
   return law.shear_modulus_at_rest();
@@ -98,7 +111,7 @@ TYPED_TEST(WallLaw, ReferenceIsStiffAndShearModulusBoundsTheLeastStiffness) {
   const double h = 1e-4;  // isochoric shear with C12 = h: Psi = mu/2 h^2 or more
   Mat3<double> F = identity<double>();
   F(0, 1) = h;
-  EXPECT_GE(law.energy(isochoric(F)), 0.4999 * law.shear_modulus_at_rest() * h * h);
+  EXPECT_GE(whole_energy(law, F), 0.4999 * law.shear_modulus_at_rest() * h * h);
 }
 
 TYPED_TEST(WallLaw, EnergyIsObjective) {
@@ -165,7 +178,7 @@ TYPED_TEST(WallLaw, CauchyStressIsTheDerivativeOfTheEnergyWithRespectToF) {
     const Mat3<double> F = deformation_gradient(e);
     Mat3<D> Fd;
     for (int n = 0; n < 9; ++n) Fd(n / 3, n % 3) = D::variable(F(n / 3, n % 3), n);
-    const D psi = law.energy(isochoric(Fd)) + D(bulk) * body.volumetric.unit_energy(determinant(Fd));
+    const D psi = whole_energy(law, Fd) + D(bulk) * body.volumetric.unit_energy(determinant(Fd));
     const Symmetric<double> sigma = displacement_cauchy_stress(e, law, body);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -188,6 +201,27 @@ TYPED_TEST(WallLaw, PacksEqualScalars) {
   const Symmetric<Pack<4>> S = stress(law, batch);
   for (int l = 0; l < 4; ++l)
     for (int n = 0; n < 6; ++n) EXPECT_NEAR(S[n][l], stress(law, C[l])[n], 1e-12 * scale_of(law));
+}
+
+/// By hand against the energy by dual numbers, at finite strains.
+TEST(WallStVenantKirchhoff, StressAndTangentAreDerivativesOfTheEnergy) {
+  const StVenantKirchhoff law{.shear_modulus = 3.0};
+  std::mt19937 random(11);
+  const Symmetric<double> C = right_cauchy_green(some_gradient(random, 0.3));
+  const auto exact = derived_response([&](const auto& x) { return law.unsplit_energy(x); }, C);
+  const auto fast = law.unsplit_response(C);
+  for (int n = 0; n < 6; ++n) {
+    EXPECT_NEAR(fast.stress[n], exact.stress[n], 1e-12);
+    EXPECT_NEAR(law.unsplit_stress(C)[n], exact.stress[n], 1e-12);
+  }
+  for (int n = 0; n < 21; ++n) EXPECT_NEAR(fast.tangent.v[n], exact.tangent.v[n], 1e-12);
+}
+
+/// Uniaxial strain by lambda: S11 = 4/3 mu E11, Holzapfel (2000), (6.151) without the part of the bulk modulus.
+TEST(WallStVenantKirchhoff, UniaxialStrain) {
+  const StVenantKirchhoff law{.shear_modulus = 3.0};
+  const double lambda = 1.3, E = 0.5 * (lambda * lambda - 1);
+  EXPECT_NEAR(law.unsplit_stress(Symmetric<double>{{lambda * lambda, 1, 1, 0, 0, 0}})[0], 4.0 * E, 1e-13);
 }
 
 TEST(WallVolumetric, PressureAndStiffnessAreDerivativesOfTheEnergy) {

@@ -58,7 +58,7 @@ void check_cavity(double reynolds, const std::string& column, int n, double allo
   input.boundary.velocity_fields.emplace_back("y_max", [](const Vec3<double>& X, double) {
     return X[0] > 1e-9 && X[0] < side - 1e-9 ? Vec3<double>{{lid, 0, 0}} : Vec3<double>{};
   });
-  input.boundary.pressure_level = Vec3<double>{};
+  input.boundary.pressure_point = coupling::PressurePoint{};
   input.rho_infinity = 0.0;
   input.newton.max_iterations = 20;
   input.newton.relative_tolerance = 1e-3;

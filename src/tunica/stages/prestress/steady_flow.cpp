@@ -31,7 +31,8 @@ void check_inflow(const FaceConditions& lumen, const case_file::SteadyFlow& flow
   int flows = 0;
   for (const auto& [face, condition] : lumen) {
     flows += std::holds_alternative<bc::Flow>(condition) ? 1 : 0;
-    if (std::holds_alternative<bc::Velocity>(condition) || std::holds_alternative<bc::Traction>(condition))
+    if (std::holds_alternative<bc::Velocity>(condition) || std::holds_alternative<bc::Traction>(condition) ||
+        std::holds_alternative<bc::VelocityProfile>(condition))
       problems.push_back({"boundary." + face, fmt::format("{} has no place in the steady flow", bc::name(condition)),
                           "use flow, pressure, resistance or rcr"});
   }
@@ -82,7 +83,7 @@ FaceConditions steady_conditions(const FaceConditions& of_case, const std::vecto
       condition = bc::Flow{bc::WaveformInput{*flow.inflow}, bc::Flow::Sign::inflow, given->profile};
     else if (const double share = conductance(condition) / total; flow.inflow && share > 0)
       condition = bc::Resistance{.resistance = flow.pressure / (*flow.inflow * share)};
-    else if (!std::holds_alternative<bc::NoSlip>(condition))
+    else if (!std::holds_alternative<bc::NoSlip>(condition) && !std::holds_alternative<bc::Symmetry>(condition))
       condition = bc::Pressure{bc::WaveformInput{flow.pressure}};
   }
   for (const auto& face : interface_faces) lumen.emplace_back(face, bc::NoSlip{});
@@ -102,6 +103,7 @@ std::string conditions_text(const FaceConditions& conditions, const std::vector<
     if (const auto* pressure = std::get_if<bc::Pressure>(&condition))
       text += fmt::format("{}: {{pressure: {:.10g} Pa}}\n", face, std::get<double>(pressure->pressure.source));
     if (std::holds_alternative<bc::NoSlip>(condition)) text += face + ": no_slip\n";
+    if (std::holds_alternative<bc::Symmetry>(condition)) text += face + ": symmetry\n";
   }
   return text;
 }

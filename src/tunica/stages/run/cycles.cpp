@@ -45,7 +45,8 @@ std::vector<std::string> openings(const case_file::Case& c, const std::vector<st
   for (const auto& face : lumen_faces) {
     const bool coupled = std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == face; });
     const bool sticks = std::any_of(c.boundary.begin(), c.boundary.end(), [&](const auto& b) {
-      return b.first == face && std::holds_alternative<bc::NoSlip>(b.second);
+      return b.first == face &&
+             (std::holds_alternative<bc::NoSlip>(b.second) || std::holds_alternative<bc::Symmetry>(b.second));
     });
     if (!coupled && !sticks) open.push_back(face);
   }

@@ -320,6 +320,7 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   if (!is_static())
     history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
   history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
+  history.points = posed_.probes->evaluate(state_);
   on_disk([&] { parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); }); });
   state_is_whole_ = true;
 

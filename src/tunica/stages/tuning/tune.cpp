@@ -48,7 +48,7 @@ std::string find_inlet(const case_file::Case& c, const std::vector<bc::BoundaryF
     if (!of_lumen) continue;
     if (std::holds_alternative<bc::Flow>(condition))
       inlets.push_back(name);
-    else if (!std::holds_alternative<bc::NoSlip>(condition) &&
+    else if (!std::holds_alternative<bc::NoSlip>(condition) && !std::holds_alternative<bc::Symmetry>(condition) &&
              std::none_of(shares.begin(), shares.end(), [&, &n = name](const auto& f) { return f.first == n; }))
       problems.push_back({"boundary." + name, fmt::format("has the condition {}", bc::name(condition)),
                           "beside the face with the inflow every opening is an outlet: give it a share in "

@@ -1,0 +1,110 @@
+#include "tunica/bc/velocity_profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "tunica/base/error.hpp"
+#include "tunica/bc/formula.hpp"
+#include "tunica/files/csv_file.hpp"
+
+namespace tunica::bc {
+
+namespace {
+
+constexpr std::size_t fitted_points = 12;
+
+}  // namespace
+
+std::function<Vec3<double>(const Vec3<double>&, double)> velocity_by_formula(const VelocityProfile& profile,
+                                                                             const Vec3<double>& outward) {
+  const double unit = profile.unit, per_length = 1.0 / profile.length_unit;
+  const auto value = [per_length](const Formula& f, const Vec3<double>& x, double t) {
+    return f(per_length * x[0], per_length * x[1], per_length * x[2], t);
+  };
+  if (profile.speed)
+    return [=, speed = Formula(*profile.speed)](const Vec3<double>& x, double t) {
+      return (-unit * value(speed, x, t)) * outward;
+    };
+  std::vector<Formula> components;
+  for (const auto& text : profile.velocity) components.emplace_back(text);
+  return [=](const Vec3<double>& x, double t) {
+    Vec3<double> v;
+    for (int i = 0; i < 3; ++i) v[i] = unit * value(components[static_cast<std::size_t>(i)], x, t);
+    return v;
+  };
+}
+
+PointTable::PointTable(const VelocityProfile& profile)
+    : file_(profile.table.value().string()), interpolation_(profile.interpolation) {
+  const auto table = files::read_csv(*profile.table, "give a table with the columns x, y, z, vx, vy, vz");
+  const char* names[] = {"x", "y", "z", "vx", "vy", "vz"};
+  const std::vector<double>* columns[6];
+  for (int c = 0; c < 6; ++c) columns[c] = &table.column(names[c]);
+  if (columns[0]->empty()) throw InputError(file_, "has no line of numbers", "give a line for each point");
+  Vec3<double> low, high;
+  for (std::size_t k = 0; k < columns[0]->size(); ++k) {
+    auto &x = points_.emplace_back(), &v = values_.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int i = static_cast<int>(c);
+      x[i] = profile.length_unit * (*columns[c])[k];
+      v[i] = profile.unit * (*columns[c + 3])[k];
+      low[i] = k == 0 ? x[i] : std::min(low[i], x[i]);
+      high[i] = k == 0 ? x[i] : std::max(high[i], x[i]);
+    }
+  }
+  extent_ = norm(high - low);
+}
+
+std::vector<std::size_t> PointTable::nearest(const Vec3<double>& place) const {
+  std::vector<std::size_t> order(points_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto count = std::min(order.size(), fitted_points);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      const double da = norm(points_[a] - place), db = norm(points_[b] - place);
+                      return da != db ? da < db : a < b;
+                    });
+  order.resize(count);
+  return order;
+}
+
+Vec3<double> PointTable::velocity(const Vec3<double>& place) const {
+  const auto near = nearest(place);
+  const double closest = norm(points_[near[0]] - place);
+  if (points_.size() > 1 && closest > extent_)
+    throw InputError(file_,
+                     fmt::format("the node at ({:.6g}, {:.6g}, {:.6g}) m is {:.3g} m away from the nearest point, all "
+                                 "points are within {:.3g} m",
+                                 place[0], place[1], place[2], closest, extent_),
+                     "check `length_unit` and the coordinates of the table");
+  if (interpolation_ == VelocityProfile::Interpolation::nearest || near.size() < 3) return values_[near[0]];
+  // Weighted means first: what is left to fit is a slope, from three by three equations.
+  const double radius = norm(points_[near.back()] - place), least = 1e-12 * radius * radius;
+  double weights = 0;
+  Vec3<double> centre{}, mean{};
+  std::vector<double> w;
+  for (const auto k : near) {
+    const Vec3<double> d = points_[k] - place;
+    w.push_back(1.0 / (dot(d, d) + least));
+    weights += w.back();
+    centre = centre + w.back() * d;
+    mean = mean + w.back() * values_[k];
+  }
+  centre = (1.0 / weights) * centre;
+  mean = (1.0 / weights) * mean;
+  Mat3<double> moments{}, products{};
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const Vec3<double> d = points_[near[i]] - place - centre, v = values_[near[i]] - mean;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) moments(r, c) += w[i] * d[r] * d[c], products(r, c) += w[i] * v[r] * d[c];
+  }
+  const double ridge = 1e-10 * trace(moments);  // no slope across a plane or a line of points
+  if (!(ridge > 0)) return mean;
+  for (int i = 0; i < 3; ++i) moments(i, i) += ridge;
+  return mean - (products * inverse(moments)) * centre;
+}
+
+}  // namespace tunica::bc

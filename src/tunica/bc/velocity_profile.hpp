@@ -1,0 +1,37 @@
+// Velocities on a face by formulas, or by a table of points.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tunica/bc/conditions.hpp"
+
+namespace tunica::bc {
+
+/// Velocity [m/s] at a place [m] and a time [s] by the formulas of `profile`, without its time course. `outward`: unit
+/// normal of the face, which `speed` goes against. Throws InputError for what is no formula.
+std::function<Vec3<double>(const Vec3<double>&, double)> velocity_by_formula(const VelocityProfile& profile,
+                                                                             const Vec3<double>& outward);
+
+/// Measured or computed velocities at scattered points.
+class PointTable {
+ public:
+  /// Reads the table of `profile`. Throws InputError when it does not read, lacks a column or has no line.
+  explicit PointTable(const VelocityProfile& profile);
+
+  /// Velocity [m/s] at a place [m]: that of the nearest point; or a linear function fitted to the nearest twelve with
+  /// weights 1 / distance^2 (moving least squares), which takes the values of the table at its points and is exact for
+  /// linear fields. Where the points lie in a plane or on a line, the function is constant across it. Throws InputError
+  /// for a place further from all points than these are from each other.
+  Vec3<double> velocity(const Vec3<double>& place) const;
+
+ private:
+  std::vector<std::size_t> nearest(const Vec3<double>& place) const;
+
+  std::string file_;
+  VelocityProfile::Interpolation interpolation_;
+  double extent_ = 0;                          ///< diagonal of the box around the points [m]
+  std::vector<Vec3<double>> points_, values_;  ///< m, m/s
+};
+
+}  // namespace tunica::bc

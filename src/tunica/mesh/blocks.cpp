@@ -1,0 +1,56 @@
+#include "tunica/mesh/blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::mesh::section {
+
+std::vector<double> graded(double begin, double end, int cells, double growth) {
+  const double ratio = cells > 1 ? std::pow(growth, 1.0 / (cells - 1)) : 1.0;
+  std::vector<double> at{0.0};
+  for (int k = 0; k < cells; ++k) at.push_back(at.back() + std::pow(ratio, k));
+  for (double& x : at) x = begin + (end - begin) * (x / at.back());
+  at.back() = end;
+  return at;
+}
+
+void Blocks::add(int n, int m, const std::function<Point(int, int)>& point) {
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      cells_.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
+      for (const auto& p : cells_.back()) number_.emplace(p, 0);
+    }
+}
+
+void Blocks::add(const std::vector<double>& x, const std::vector<double>& y) {
+  add(static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, [&](int i, int j) {
+    return Point{x[static_cast<std::size_t>(i)], y[static_cast<std::size_t>(j)]};
+  });
+}
+
+Section Blocks::finish(const std::function<std::string(const Point&, const Point&)>& name) const {
+  Section s;
+  auto number = number_;
+  for (auto& [point, index] : number) {
+    index = std::ssize(s.points);
+    s.points.push_back(point);
+  }
+  std::map<std::array<Index, 2>, int> edges;  // directed, cells to their left
+  for (const auto& cell : cells_) {
+    std::array<Index, 4> n{};
+    for (std::size_t k = 0; k < 4; ++k) n[k] = number.at(cell[k]);
+    add_quadrilateral(s, n[0], n[1], n[2], n[3]);
+    for (std::size_t k = 0; k < 4; ++k) edges[{n[k], n[(k + 1) % 4]}] = 1;
+  }
+  std::map<std::string, Edges> outline;
+  for (const auto& [edge, one] : edges) {
+    if (edges.contains({edge[1], edge[0]})) continue;
+    const auto face = name(s.points[static_cast<std::size_t>(edge[0])], s.points[static_cast<std::size_t>(edge[1])]);
+    auto& list = outline.emplace(face, Edges{face, {}}).first->second;
+    list.edges.push_back(edge);
+  }
+  for (auto& [face, list] : outline) s.boundary.push_back(std::move(list));
+  return s;
+}
+
+}  // namespace tunica::mesh::section

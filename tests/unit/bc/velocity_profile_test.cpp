@@ -1,0 +1,72 @@
+#include "tunica/bc/velocity_profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tunica/base/error.hpp"
+#include "tunica/bc/formula.hpp"
+
+namespace tunica::bc {
+namespace {
+
+TEST(Formula, KnowsPlaceTimeAndPi) {
+  const Formula f("1.5*y*(0.41-y)/0.205^2*(t < 2 ? (1-cos(pi*t/2))/2 : 1) + x - z");
+  EXPECT_NEAR(f(0, 0.205, 0, 1), 0.75, 1e-14);
+  EXPECT_NEAR(f(3, 0.205, 1, 5), 3.5, 1e-14);
+}
+
+TEST(Formula, RefusesOtherTexts) {
+  for (const char* text : {"", "1 +", "w", "sin(", "x y", "1, 2", "x = 3 3"})
+    EXPECT_THROW(Formula{text}, InputError) << text;
+}
+
+TEST(VelocityProfile, FormulasHaveUnits) {
+  VelocityProfile profile;
+  profile.unit = 0.01, profile.length_unit = 1e-3;
+  profile.velocity = {"x", "2*y", "t"};
+  const Vec3<double> place{{2e-3, 3e-3, 0}}, outward{{0, 0, -1}};
+  const auto v = velocity_by_formula(profile, outward)(place, 4.0);
+  EXPECT_LE(norm(v - Vec3<double>{{0.02, 0.06, 0.04}}), 1e-15);
+  profile.velocity.clear();
+  profile.speed.emplace("5");
+  EXPECT_LE(norm(velocity_by_formula(profile, outward)(place, 0.0) - Vec3<double>{{0, 0, 0.05}}), 1e-15);
+}
+
+class ProfileTable : public ::testing::Test {
+ protected:
+  /// v = (1 + 2 x - y, 0, 3 y) at the points of a grid in the plane z = 0.5.
+  ProfileTable() {
+    std::ofstream out(file_);
+    out << "x,y,z,vx,vy,vz\n";
+    for (int i = 0; i <= 4; ++i)
+      for (int j = 0; j <= 4; ++j) out << i << ',' << j << ",0.5," << 1 + 2 * i - j << ",0," << 3 * j << '\n';
+    out.close();
+    profile_.table = file_;
+  }
+  ~ProfileTable() override { std::filesystem::remove(file_); }
+  std::filesystem::path file_ = std::filesystem::temp_directory_path() / "tunica_profile_table.csv";
+  VelocityProfile profile_;
+};
+
+TEST_F(ProfileTable, IsExactForLinearFieldsAndAtItsPoints) {
+  const PointTable table(profile_);
+  for (const auto& [x, y] : {std::pair{1.3, 2.6}, {0.0, 0.0}, {4.0, 3.0}, {2.5, 0.1}})
+    EXPECT_LE(norm(table.velocity({{x, y, 0.5}}) - Vec3<double>{{1 + 2 * x - y, 0, 3 * y}}), 1e-6) << x << " " << y;
+}
+
+TEST_F(ProfileTable, NearestTakesOnePoint) {
+  profile_.interpolation = VelocityProfile::Interpolation::nearest;
+  EXPECT_LE(norm(PointTable(profile_).velocity({{1.4, 2.4, 0.5}}) - Vec3<double>{{1, 0, 6}}), 1e-12);
+}
+
+TEST_F(ProfileTable, RefusesPlacesFarAway) {
+  EXPECT_THROW(PointTable(profile_).velocity({{100, 0, 0}}), InputError);
+  profile_.length_unit = 1e-3;
+  EXPECT_THROW(PointTable(profile_).velocity({{1.3, 2.6, 0.5}}), InputError);
+}
+
+}  // namespace
+}  // namespace tunica::bc
