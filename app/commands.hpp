@@ -30,6 +30,7 @@ void add_report(CLI::App& app);
 void add_run(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_tune(CLI::App& app);
+void add_validate(CLI::App& app);
 void add_vary(CLI::App& app);
 void add_verify(CLI::App& app);
 

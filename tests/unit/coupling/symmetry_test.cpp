@@ -57,7 +57,8 @@ TEST(Symmetry, HalfAChannelFlowsAsTheWholeOne) {
 }
 
 // Against the shear at the wall; planes of symmetry take no part of it. Nodes on the rim of an opening have their share
-// of what pushes the blood there as well, against its direction: here a third of the triangles with an edge on the wall, an eighth of the inlet.
+// of what pushes the blood there as well, against its direction: here a third of the triangles with an edge on the
+// wall, an eighth of the inlet.
 TEST(Symmetry, ForceOnTheWallIsTheShear) {
   const auto mesh = distributed::distribute(test::turned_box(true), MPI_COMM_WORLD);
   Problem problem(mesh, channel_input());
