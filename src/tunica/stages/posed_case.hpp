@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tunica/analysis/lumens.hpp"
 #include "tunica/artifacts/fields.hpp"
 #include "tunica/artifacts/inputs.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
@@ -37,6 +38,7 @@ struct PosedCase {
   std::optional<coupling::Problem> problem;
   std::optional<coupling::Monitors> monitors;
   std::optional<artifacts::OutputFields> fields;
+  std::optional<analysis::Lumens> lumens;  ///< where true and false lumen are told apart
 
   PosedCase() = default;
   PosedCase(const PosedCase&) = delete;
