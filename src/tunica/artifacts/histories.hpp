@@ -88,8 +88,10 @@ class Histories {
   /// What was found wrong with the histories that are continued.
   std::vector<std::string> damage() const;
 
+  /// All files of histories that a run may write, those of other classes included.
   static std::vector<std::string> files() {
-    return {"faces.csv", "outlets.csv", "balance.csv", "steps.csv", "cycles.csv", "points.csv", "forces.csv"};
+    return {"faces.csv",  "outlets.csv", "balance.csv", "steps.csv",       "cycles.csv",
+            "points.csv", "forces.csv",  "lumens.csv",  "dissipation.csv", "lumens.json"};
   }
 
  private:

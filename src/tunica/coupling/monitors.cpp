@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_element.hpp"
@@ -30,7 +31,8 @@ double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1]
 }  // namespace
 
 // The interface carries no load of its own; on its rim the conditions of the adjoining faces act as well.
-Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.mesh().owned_nodes, NodeKind::inner) {
+Monitors::Monitors(const Problem& problem, distributed::LumenMap map)
+    : problem_(problem), map_(std::move(map)), kind_(problem.mesh().owned_nodes, NodeKind::inner) {
   const auto& mesh = problem.mesh();
   for (const auto& region : mesh.regions)
     if (region.kind == RegionKind::wall)
@@ -118,65 +120,84 @@ void Monitors::faces(StepRecord& record) const {
   record.largest_flow = std::max(record.largest_flow, std::abs(record.volume_rate));
 }
 
-void Monitors::quadratic_lumen_elements(const distributed::Region& region, double (&sums)[4]) const {
+/// Of one element of the lumen.
+struct Monitors::Power {
+  double volume, kinetic, viscous, numerical;  ///< m^3, J, W, W
+};
+
+Monitors::Power Monitors::quadratic_power(const distributed::Region& region, std::int32_t element) const {
   namespace th = fluid::taylor_hood;
   const FieldsView f = problem_.fields();
   const fluid::Parameters& parameters = *problem_.input().fluid;
-  for (std::int32_t e = 0; e < region.owned_elements; ++e) {
-    const auto& corners = region.elements[e];
-    const auto nodes = distributed::quadratic_nodes(region, static_cast<std::size_t>(e));
-    th::ElementState<double> s;
-    gather(f.position, corners, s.position);
-    gather(f.velocity_pressure, nodes, s.velocity);
-    gather(f.acceleration, nodes, s.acceleration);
-    gather(f.mesh_velocity, corners, s.mesh_velocity);
-    gather(f.stream, nodes, s.stream);
-    for (int a = 0; a < 10; ++a) s.rate_squared[a] = f.stream[at(nodes[a]) + 3];
-    for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(corners[a]) + 3];
-    const auto energy = std::visit(
-        [&](const auto& law) {
-          return th::energy(s, {0.0, 0.0, problem_.flow_speed()}, parameters, law);
-        },
-        parameters.viscosity);
-    sums[0] += energy.volume;
-    sums[1] += energy.kinetic;
-    sums[2] += energy.viscous;
-    sums[3] += energy.numerical;
-  }
+  const auto& corners = region.elements[element];
+  const auto nodes = distributed::quadratic_nodes(region, static_cast<std::size_t>(element));
+  th::ElementState<double> s;
+  gather(f.position, corners, s.position);
+  gather(f.velocity_pressure, nodes, s.velocity);
+  gather(f.acceleration, nodes, s.acceleration);
+  gather(f.mesh_velocity, corners, s.mesh_velocity);
+  gather(f.stream, nodes, s.stream);
+  for (int a = 0; a < 10; ++a) s.rate_squared[a] = f.stream[at(nodes[a]) + 3];
+  for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(corners[a]) + 3];
+  const auto energy = std::visit(
+      [&](const auto& law) {
+        return th::energy(s, {0.0, 0.0, problem_.flow_speed()}, parameters, law);
+      },
+      parameters.viscosity);
+  return {energy.volume, energy.kinetic, energy.viscous, energy.numerical};
+}
+
+Monitors::Power Monitors::linear_power(const distributed::Region& region, std::int32_t element, double dt) const {
+  const FieldsView f = problem_.fields();
+  const fluid::Parameters& parameters = *problem_.input().fluid;
+  const auto& nodes = region.elements[element];
+  fluid::ElementState<double> s;
+  gather(f.position, nodes, s.position);
+  gather(f.velocity_pressure, nodes, s.velocity);
+  gather(f.acceleration, nodes, s.acceleration);
+  gather(f.mesh_velocity, nodes, s.mesh_velocity);
+  for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
+  const auto flow = std::visit([&](const auto& law) { return fluid::evaluate(s, law); }, parameters.viscosity);
+  const auto tau = fluid::stabilisation(flow, dt, parameters);
+  return {flow.shape.volume, fluid::kinetic_energy(flow.shape.volume, s.velocity, parameters.density),
+          fluid::viscous_dissipation(flow), fluid::numerical_dissipation(flow, tau, s.velocity, parameters.density)};
 }
 
 void Monitors::lumen_elements(double dt, StepRecord& record) const {
   const auto& mesh = problem_.mesh();
-  const FieldsView f = problem_.fields();
-  double sums[4] = {};  // volume, kinetic energy, viscous and numerical dissipation
-  for (const auto& region : mesh.regions) {
+  const std::size_t parts = std::max<std::size_t>(1, map_.parts.size());
+  std::vector<double> sums(2 + 2 * parts, 0.0);  // volume, kinetic energy; viscous and numerical dissipation of a part
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    const auto& region = mesh.regions[r];
     if (region.kind != RegionKind::lumen) continue;
-    const fluid::Parameters& parameters = *problem_.input().fluid;
-    if (mesh.quadratic) {
-      quadratic_lumen_elements(region, sums);
-      continue;
-    }
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
-      const auto& nodes = region.elements[e];
-      fluid::ElementState<double> s;
-      gather(f.position, nodes, s.position);
-      gather(f.velocity_pressure, nodes, s.velocity);
-      gather(f.acceleration, nodes, s.acceleration);
-      gather(f.mesh_velocity, nodes, s.mesh_velocity);
-      for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
-      const auto flow = std::visit([&](const auto& law) { return fluid::evaluate(s, law); }, parameters.viscosity);
-      const auto tau = fluid::stabilisation(flow, dt, parameters);
-      sums[0] += flow.shape.volume;
-      sums[1] += fluid::kinetic_energy(flow.shape.volume, s.velocity, parameters.density);
-      sums[2] += fluid::viscous_dissipation(flow);
-      sums[3] += fluid::numerical_dissipation(flow, tau, s.velocity, parameters.density);
+      const Power power = mesh.quadratic ? quadratic_power(region, e) : linear_power(region, e, dt);
+      const std::size_t part = map_.parts.empty() ? 0 : static_cast<std::size_t>(map_.part_of[r][e]);
+      sums[0] += power.volume;
+      sums[1] += power.kinetic;
+      sums[2 + 2 * part] += power.viscous;
+      sums[3 + 2 * part] += power.numerical;
     }
   }
   parallel::global_sum(mesh.comm, sums);
   record.lumen_volume = sums[0];
   record.fluid_kinetic = sums[1];
-  record.viscous_dissipation = sums[2];
-  record.numerical_dissipation = sums[3];
+  if (!map_.empty()) record.lumens.emplace();
+  for (std::size_t part = 0; part < parts; ++part) {
+    record.viscous_dissipation += sums[2 + 2 * part];
+    record.numerical_dissipation += sums[3 + 2 * part];
+    if (!record.lumens) continue;
+    record.lumens->viscous.push_back(sums[2 + 2 * part]);
+    record.lumens->numerical.push_back(sums[3 + 2 * part]);
+  }
+}
+
+void Monitors::lumens(double dt, StepRecord& record) const {
+  LumenRecord lumens = lumen_record({problem_.mesh(), problem_.fields(), *problem_.input().fluid, dt}, map_);
+  lumens.true_volume = record.lumen_volume - lumens.in_false.volume;
+  lumens.viscous = std::move(record.lumens->viscous);
+  lumens.numerical = std::move(record.lumens->numerical);
+  record.lumens = std::move(lumens);
 }
 
 void Monitors::quadratic_wall_elements(std::size_t index, double (&sums)[3]) const {
@@ -298,6 +319,7 @@ StepRecord Monitors::evaluate(double dt) const {
   StepRecord record;
   faces(record);
   if (problem_.input().fluid) lumen_elements(dt, record);
+  if (record.lumens) lumens(dt, record);
   if (problem_.input().wall) wall_elements(record);
   if (dt > 0) {
     const auto parts = problem_.partial_residuals();

@@ -1,9 +1,11 @@
 // Integral quantities of an accepted step: flows, volumes, energies, and the balances that must close.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tunica/coupling/lumen_fluxes.hpp"
 #include "tunica/coupling/problem.hpp"
 
 namespace tunica::coupling {
@@ -48,13 +50,14 @@ struct StepRecord {
   /// Of the lumen faces with no_slip and of the interface, in the order of the mesh. What the equations leave at the
   /// nodes of the face (consistent nodal forces); a node of several such faces counts for each in equal parts.
   std::vector<WallForce> wall_forces;
+  std::optional<LumenRecord> lumens;  ///< where true and false lumen are told apart
 };
 
 /// What does not change from step to step.
 class Monitors {
  public:
-  /// `problem` must outlive this.
-  explicit Monitors(const Problem& problem);
+  /// `problem` must outlive this. `map`: where the lumens of a dissection are.
+  explicit Monitors(const Problem& problem, distributed::LumenMap map = {});
 
   /// For the step of size `dt` [s] that `problem` last accepted; 0 for a static equilibrium. All sums are added in rank
   /// order. Collective.
@@ -65,15 +68,19 @@ class Monitors {
 
   void find_sticking_faces();
   void faces(StepRecord& record) const;
-  void quadratic_lumen_elements(const distributed::Region& region, double (&sums)[4]) const;
+  struct Power;
+  Power linear_power(const distributed::Region& region, std::int32_t element, double dt) const;
+  Power quadratic_power(const distributed::Region& region, std::int32_t element) const;
   void lumen_elements(double dt, StepRecord& record) const;
   void quadratic_wall_elements(std::size_t region, double (&sums)[3]) const;
   void wall_elements(StepRecord& record) const;
   void powers(const Problem::PartialResiduals& parts, StepRecord& record) const;
   void wall_forces(const Problem::PartialResiduals& parts, StepRecord& record) const;
   void extremes(StepRecord& record) const;
+  void lumens(double dt, StepRecord& record) const;
 
   const Problem& problem_;
+  distributed::LumenMap map_;
   std::vector<NodeKind> kind_;  ///< of the owned nodes
   /// Faces that the blood sticks to, with their owned nodes and what part of a node's force each has.
   struct StickingFace {

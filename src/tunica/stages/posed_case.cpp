@@ -50,6 +50,10 @@ void check_tables(const case_file::Case& c, const mesh::MeshData& data) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+analysis::PostSettings post_settings(const case_file::Case& c) {
+  return c.post ? *c.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
+}
+
 }  // namespace
 
 ReadCase read_case(MPI_Comm comm, const fs::path& case_file) {
@@ -76,7 +80,8 @@ void PosedCase::pose(const ReadCase& c, MPI_Comm comm) {
   mesh = distributed::distribute(c.mesh.data, comm);
   distributed::check_region_names(mesh);
   problem.emplace(mesh, artifacts::problem_input(c.settings));
-  monitors.emplace(*problem);
+  lumens = analysis::find_lumens(mesh, case_file::describe(c.settings), post_settings(c.settings));
+  monitors.emplace(*problem, lumens ? lumens->map : distributed::LumenMap{});
   fields.emplace(*problem, c.settings);
   const auto places = artifacts::probe_places(c.settings);
   probes.emplace(mesh, places);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tunica/analysis/lumens.hpp"
 #include "tunica/artifacts/fields.hpp"
 #include "tunica/artifacts/inputs.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
@@ -39,6 +40,7 @@ struct PosedCase {
   std::optional<coupling::Monitors> monitors;
   std::optional<artifacts::OutputFields> fields;
   std::optional<coupling::Probes> probes;  ///< at the points of the case
+  std::optional<analysis::Lumens> lumens;  ///< where true and false lumen are told apart
 
   PosedCase() = default;
   PosedCase(const PosedCase&) = delete;

@@ -9,6 +9,7 @@
 
 #include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/histories.hpp"
+#include "tunica/artifacts/lumen_histories.hpp"
 #include "tunica/artifacts/step_grid.hpp"
 #include "tunica/assembly/isa.hpp"
 #include "tunica/assembly/time_scheme.hpp"
@@ -89,6 +90,7 @@ class Run {
 
   std::string time_text(double seconds) const;
   std::string step_line(const StepReport& report, double dt) const;
+  std::string tears_text(const coupling::StepRecord& record) const;
 
   const ReadCase& input_;
   const case_file::Case& case_;
@@ -109,9 +111,10 @@ class Run {
   std::optional<coupling::Monitors>& monitors_ = posed_.monitors;
   std::optional<artifacts::OutputFields>& fields_ = posed_.fields;
   std::optional<distributed::ResultsWriter> writer_;
-  std::optional<artifacts::Histories> histories_;  ///< rank 0
-  std::optional<Cycles> cycles_;                   ///< rank 0, with cycles
-  std::optional<artifacts::Manifest> manifest_;    ///< rank 0
+  std::optional<artifacts::Histories> histories_;             ///< rank 0
+  std::optional<artifacts::LumenHistories> lumen_histories_;  ///< rank 0, with lumens
+  std::optional<Cycles> cycles_;                              ///< rank 0, with cycles
+  std::optional<artifacts::Manifest> manifest_;               ///< rank 0
   coupling::State state_;
   artifacts::StepGrid grid_;
   artifacts::ManifestProgress progress_;
@@ -275,6 +278,10 @@ void Run::open_outputs() {
     if (keep) tell_missing_fields(folder_, regions, grid_.time(), *log_);
     histories_.emplace(folder_, case_, lumen_faces, state_.outlets, from);
     for (const auto& line : histories_->damage()) log_->warning(line);
+    if (posed_.lumens) {
+      lumen_histories_.emplace(folder_, case_.output.units, *posed_.lumens, from);
+      for (const auto& line : lumen_histories_->damage()) log_->warning(line);
+    }
     if (case_.time && case_.time->cycles) {
       cycles_.emplace(folder_, case_, openings(case_, lumen_faces), from);
       for (const auto& line : cycles_->damage()) log_->warning(line);
@@ -302,6 +309,16 @@ std::string Run::step_line(const StepReport& report, double dt) const {
                      report.final_norm, time_text(dt), report.timings.total);
 }
 
+/// "  tears +12.3 -4.5 ml/s": into the false lumen; empty without tears.
+std::string Run::tears_text(const coupling::StepRecord& record) const {
+  if (!record.lumens || record.lumens->tear_flows.empty()) return {};
+  const std::string& unit = case_.output.units.flow;
+  std::string text = "  tears";
+  for (const double flow : record.lumens->tear_flows)
+    text += fmt::format(" {:+.3g}", flow / config::unit_factor(unit, config::dimension::volume_flow));
+  return text + " " + unit;
+}
+
 StepReport Run::attempt() {
   const double size = grid_.next_step();
   return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
@@ -321,7 +338,12 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
     history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
   history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
   history.points = posed_.probes->evaluate(state_);
-  on_disk([&] { parallel::on_root(comm_, [&] { histories_->append(history, state_.outlets); }); });
+  on_disk([&] {
+    parallel::on_root(comm_, [&] {
+      histories_->append(history, state_.outlets);
+      if (lumen_histories_) lumen_histories_->append(history.step, history.evaluated, *history.record.lumens);
+    });
+  });
   state_is_whole_ = true;
 
   auto& p = progress_;
@@ -332,7 +354,7 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   p.timings.linear += report.timings.linear;
   p.timings.mesh += report.timings.mesh;
   p.timings.total += report.timings.total;
-  log_->info(step_line(report, dt));
+  log_->info(step_line(report, dt) + tears_text(history.record));
 }
 
 void Run::rejected(const StepReport& report) {
@@ -409,7 +431,10 @@ void Run::save() {
   const fs::path file = artifacts::checkpoint_file(checkpoint_folder(), grid_.steps_done());
   on_disk([&] {
     // In this order: a checkpoint without the histories that lead to it could not be continued.
-    parallel::on_root(comm_, [&] { histories_->sync(); });
+    parallel::on_root(comm_, [&] {
+      histories_->sync();
+      if (lumen_histories_) lumen_histories_->sync();
+    });
     artifacts::write_checkpoint(file, mesh_, {state_, grid_.position(), case_hash_, mesh_hash_});
   });
   last_checkpoint_ = file;

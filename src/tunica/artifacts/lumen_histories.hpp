@@ -1,0 +1,39 @@
+// Histories of true and false lumen: what passes the tears, and what friction and the scheme take from the flow.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tunica/analysis/lumens.hpp"
+#include "tunica/artifacts/histories.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/coupling/lumen_fluxes.hpp"
+
+namespace tunica::artifacts {
+
+/// - lumens.csv: flow into the false lumen through each tear, its outflow by openings, dV/dt, volumes of both lumens,
+///   and what is left of the balance;
+/// - dissipation.csv: viscous and numerical dissipation of each part of the lumen;
+/// - lumens.json: names, centres and areas of the tears, in mm.
+/// A folder of a version that did not write them is continued: they begin with the restart. Not collective.
+class LumenHistories {
+ public:
+  /// Throws as CsvTable.
+  LumenHistories(const std::filesystem::path& folder, const case_file::OutputUnits& units,
+                 const analysis::Lumens& lumens, std::optional<std::int64_t> continue_from);
+
+  /// `evaluated`: time that the record belongs to [s].
+  void append(std::int64_t step, double evaluated, const coupling::LumenRecord& record);
+  void sync() const;
+  std::vector<std::string> damage() const;
+
+ private:
+  double per_second_, per_flow_, per_volume_;
+  std::vector<std::string> begun_;  ///< files that a continued run lacks
+  std::optional<CsvTable> lumens_, dissipation_;
+};
+
+}  // namespace tunica::artifacts
