@@ -32,11 +32,12 @@ Constraints::Constraints(const BlockPattern& pattern, std::vector<NodeConstraint
 
 namespace {
 
-// What stands for the held directions of a node. Where others are free it is as large as theirs: in the entries of an
-// oblique plane both are added, in single precision.
+// What stands for the held directions of a node: 1, but the mean of the diagonal where they are oblique, since free and
+// held share entries there and are added in single precision.
 double held_entry(const NodeConstraint& c, const float* a) {
+  const bool oblique = c.P(0, 1) != 0.0 || c.P(0, 2) != 0.0 || c.P(1, 2) != 0.0;
   const double mean = (static_cast<double>(a[0]) + a[5] + a[10]) / 3.0;
-  return trace(c.P) > 0.5 && mean > 0 ? mean : 1.0;
+  return oblique && mean > 0 ? mean : 1.0;
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ class Constraints {
   Constraints() = default;
   Constraints(const BlockPattern& pattern, std::vector<NodeConstraint> constraints);
 
-  /// A <- T A T + s (I - T), T the block-diagonal projector; s is 1 where nothing of a node is free, else the mean of
-  /// the diagonal of its block.
+  /// A <- T A T + s (I - T), T the block-diagonal projector; s is the mean of the diagonal of the node's block where
+  /// its plane or line is oblique to the axes, else 1.
   void apply(BlockMatrix& matrix) const;
   /// r <- T r, [local node][4].
   void apply(std::span<double> vector) const;
