@@ -18,6 +18,7 @@ inline CLI::Validator some_name() {
 
 void add_check(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_converge(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_image(CLI::App& app);
 void add_material(CLI::App& app);

@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
       "More about a subcommand: tunica <subcommand> --help");
   tunica::app::add_check(app);
   tunica::app::add_compare(app);
+  tunica::app::add_converge(app);
   tunica::app::add_fibres(app);
   tunica::app::add_image(app);
   tunica::app::add_material(app);

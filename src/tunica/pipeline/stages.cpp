@@ -307,6 +307,21 @@ Document case_on_common_mesh(const Chain& chain, const fs::path& folder) {
   return document;
 }
 
+Document case_with_common_outlets(const Chain& chain, const fs::path& folder) {
+  Document document = case_for(chain, folder);
+  for (const auto& s : stages()) document.remove(s.output);
+  document.remove("compare");
+  set_outlets_file(chain, folder, document);
+  return document;
+}
+
+Document case_on_common_start(const Chain& chain, const fs::path& folder) {
+  Document document = case_on_common_mesh(chain, folder);
+  set_start(chain, folder, document);
+  if (document.has("wall.prestress")) document.remove("prestress");
+  return document;
+}
+
 fs::path folder_of(const Chain& chain, const Stage& stage) {
   const std::string given = chain.document.text(stage.output);
   if (*stage.output == 0 || given.empty()) return chain.output / stage.name;
