@@ -63,6 +63,7 @@ void loop_over_quadratic_fluid(const LumenGroupView& group, const FieldsView& fi
     gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
     gather_vectors<W>(fields.mesh_velocity, nodes, state.mesh_velocity);
     gather_vectors<W>(fields.stream, nodes, state.stream, state.rate_squared);
+    gather_vectors<W>(fields.convection, nodes, state.convection);
     const int used = used_lanes<W>(batches, batch);
     th::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {

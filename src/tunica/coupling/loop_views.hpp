@@ -20,6 +20,7 @@ struct FieldsView {
   const double* mesh_velocity = nullptr;       ///< at t_{n+alpha_f} [m/s]; fluid
   const double* displacement = nullptr;        ///< u at t_{n+alpha_f} [m]; wall
   const double* stream = nullptr;              ///< at t_n: v - v^ [m/s], |dv/dt|^2 [m^2/s^4]; fluid, quadratic elements
+  const double* convection = nullptr;          ///< P (2.5) at t_n [m/s^2]; fluid, quadratic elements
 };
 
 /// Where a loop adds its results. Without `blocks` it computes the residual only.

@@ -137,6 +137,7 @@ Monitors::Power Monitors::quadratic_power(const distributed::Region& region, std
   gather(f.acceleration, nodes, s.acceleration);
   gather(f.mesh_velocity, corners, s.mesh_velocity);
   gather(f.stream, nodes, s.stream);
+  gather(f.convection, nodes, s.convection);
   for (int a = 0; a < 10; ++a) s.rate_squared[a] = f.stream[at(nodes[a]) + 3];
   for (int a = 0; a < 4; ++a) s.pressure[a] = f.velocity_pressure[at(corners[a]) + 3];
   const auto energy = std::visit(

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/convection.hpp"
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_model.hpp"
@@ -105,8 +106,8 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
   for (std::int32_t i = 0; i < mesh.nodes(); ++i)
     for (int c = 0; c < 3; ++c) reference_position_[at(i) + c] = mesh.points[i][c];
   position_ = reference_position_;
-  for (auto* field :
-       {&velocity_pressure_, &acceleration_, &mesh_velocity_, &stream_, &displacement_, &residual_, &increment_})
+  for (auto* field : {&velocity_pressure_, &acceleration_, &mesh_velocity_, &stream_, &convection_, &displacement_,
+                      &residual_, &increment_})
     field->assign(n, 0.0);
 }
 
@@ -161,7 +162,8 @@ FieldsView Problem::fields() const {
           acceleration_.data(),
           mesh_velocity_.data(),
           displacement_.data(),
-          stream_.data()};
+          stream_.data(),
+          convection_.data()};
 }
 
 void Problem::synchronise_twins(State& state) const {
@@ -238,6 +240,7 @@ void Problem::remember_start(const State& state, const State& next) {
       stream_[k + 3] += state.acceleration[k + c] * state.acceleration[k + c];
     }
   }
+  if (input_.fluid) convection_ = resolved_convection(mesh_, state, stream_);
 }
 
 void Problem::prescribe_mesh(State& state) const {

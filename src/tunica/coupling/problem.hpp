@@ -169,7 +169,7 @@ class Problem {
   std::optional<MeshMotion> mesh_motion_;
 
   std::vector<double> reference_position_, position_, velocity_pressure_, acceleration_, mesh_velocity_, stream_,
-      displacement_;
+      convection_, displacement_;
   std::vector<double> residual_, increment_, nodal_forces_;
   std::vector<assembly::RankOne> outlets_;
   std::vector<double> outlet_flows_;

@@ -3,10 +3,11 @@
 //
 // Find (v, p) so that for all (w, q), with a = v - v^ the velocity relative to the mesh,
 //   (w, rho (v. + a.grad v + 1/2 (div v) v)) + (grad w, 2 mu eps - p I) + (q, div v)
-//   + sum_e (tau_M rho^2 k(b.grad w), k(b.grad v)) + (tau_C div w, div v) = boundary terms,
+//   + sum_e (tau_M rho^2 b.grad w, b.grad v - P) + (tau_C div w, div v) = boundary terms,
 //   tau_M = [rho sqrt(mean_e b.G b + s^2 tr G / 3 + (2 c_M)^2 mean_e |v.|^2 / s^2 + c_I (mu / rho)^2 G:G)]^-1,
 //   s^2 = mean_e |b|^2 + (U / 5)^2,   tau_C = kappa / (tau_M tr G),
-// with k(f) = f - mean_e f, and b = a and v. at the start of the step.
+// with b = a, v. and P of the start of the step, P the L2 projection of b.grad v onto continuous quadratic functions
+// (orthogonal subscales, Codina 2002; coupling/convection.hpp): what the mesh resolves of convection loses nothing.
 //
 // The pair satisfies the inf-sup condition, so no subscale carries mass: div v = 0 holds against every linear q. The
 // term with 1/2 (div v) keeps convection from making energy where div v does not vanish in points (Temam 1968).
@@ -46,6 +47,7 @@ struct ElementState {
   Vec3<T> mesh_velocity[4];     ///< v^ of the corners at t_{n+alpha_f} [m/s]
   Vec3<T> stream[nodes];        ///< b: velocity relative to the mesh at t_n [m/s]
   T rate_squared[nodes];        ///< |dv/dt|^2 at t_n [m^2/s^4]
+  Vec3<T> convection[nodes];    ///< P: resolved part of b.grad v at t_n [m/s^2]
   T pressure[4];                ///< p at t_{n+alpha_f} [Pa]
 };
 
@@ -90,7 +92,8 @@ struct PointFlow {
   Vec3<T> a, v;      ///< relative and absolute velocity
   Vec3<T> inertia;   ///< v. + a.grad v
   Vec3<T> b;         ///< direction of the stabilisation [m/s]
-  Vec3<T> along;     ///< b.grad v less its mean over the element [m/s^2]
+  Vec3<T> along;     ///< b.grad v [m/s^2]
+  Vec3<T> subscale;  ///< b.grad v - P [m/s^2]
   T divergence, pressure, mu, weight;
 };
 
@@ -147,7 +150,8 @@ TUNICA_INLINE PointFlow<T> at_point(const ElementState<T>& s, const Flow<T>& f, 
   p.inertia = rate + p.gradient * p.a;
   p.divergence = trace(p.gradient);
   p.mu = law.viscosity(shear_rate(p.gradient));
-  p.along = p.gradient * p.b;
+  p.along = p.subscale = p.gradient * p.b;
+  for (int b = 0; b < nodes; ++b) fluid::detail::add(p.subscale, T(-point.N[b]), s.convection[b]);
   return p;
 }
 
@@ -162,18 +166,15 @@ struct PointFlows {
 template <class T, class Law>
 TUNICA_INLINE void at_points(const ElementState<T>& s, const Flow<T>& f, const Parameters& parameters, const Law& law,
                              PointFlows<T>& flows) {
-  Vec3<T> mean = fluid::detail::zero_vector<T>();
   T metric(0.0);
   for (int q = 0; q < points; ++q) {
     const auto& point = fe::quadratic_fourteen_points[q];
     PointFlow<T>& p = flows.at[q] = at_point(s, f, point, law);
-    fluid::detail::add(mean, T(point.weight), p.along);
     for (int k = 1; k < 4; ++k) {
       const T along = dot(f.g[k], p.b);
       metric += T(point.weight) * along * along;
     }
   }
-  for (auto& p : flows.at) p.along = p.along - mean;
   const T root = sqrt(f.common + metric + T(1e-12));
   flows.tau_m = T(1.0 / parameters.density) / root;
   flows.tau_c = T(tau_c_factor * parameters.density) * root / f.trace_g;
@@ -191,7 +192,7 @@ TUNICA_INLINE void add_residual(const PointFlows<T>& flows, int q, double rho, E
   const Vec3<T> stream = (p.weight * T(rho * rho) * flows.tau_m) * p.b;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      stress(i, j) = p.weight * p.mu * (p.gradient(i, j) + p.gradient(j, i)) + p.along[i] * stream[j];
+      stress(i, j) = p.weight * p.mu * (p.gradient(i, j) + p.gradient(j, i)) + p.subscale[i] * stream[j];
   for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * (flows.tau_c * p.divergence - p.pressure);
   for (int a = 0; a < nodes; ++a) {
     fluid::detail::add(r.momentum[a], T(point.N[a]), force);
@@ -217,7 +218,8 @@ inline void residual(const ElementState<T>& state, const TimeCoefficients& time,
   for (int q = 0; q < points; ++q) add_residual(flows, q, parameters.density, r);
 }
 
-/// Energy of an element [J] and the power that leaves its resolved flow [W].
+/// Energy of an element [J] and the power that leaves its resolved flow [W]; the numerical one may be negative in an
+/// element: of the whole lumen it is the part of b.grad v that the mesh does not resolve.
 template <class T>
 struct Energy {
   T volume, kinetic, viscous, numerical;
@@ -234,7 +236,7 @@ inline Energy<T> energy(const ElementState<T>& state, const TimeCoefficients& ti
     const T gamma = shear_rate(p.gradient);
     sum.kinetic += T(0.5 * parameters.density) * p.weight * dot(p.v, p.v);
     sum.viscous += p.weight * p.mu * gamma * gamma;
-    sum.numerical += p.weight * (T(parameters.density * parameters.density) * flows.tau_m * dot(p.along, p.along) +
+    sum.numerical += p.weight * (T(parameters.density * parameters.density) * flows.tau_m * dot(p.subscale, p.along) +
                                  flows.tau_c * p.divergence * p.divergence);
   }
   return sum;
@@ -248,8 +250,8 @@ struct ShapeTangent {
 };
 
 /// With the corner b moving along j, dN_a,k -> - N_a,j l_b,k, dV -> V l_b,j, d(grad v)_ik = - v_i,j l_b,k, and v^
-/// changes by l_b along j. Held fixed are tau_M, tau_C and b. `r` is the residual of the element, moves[b] = 1 where b
-/// follows the wall, else 0.
+/// changes by l_b along j. Held fixed are tau_M, tau_C, b and P. `r` is the residual of the element, moves[b] = 1 where
+/// b follows the wall, else 0.
 template <class Law, class T>
 inline void shape_tangent(const Flow<T>& f, const PointFlows<T>& flows, const Law& law, double rho,
                           const MotionCoefficients& motion, const T (&moves)[4], const ElementVector<T>& r,
@@ -260,9 +262,6 @@ inline void shape_tangent(const Flow<T>& f, const PointFlows<T>& flows, const La
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) k.momentum[a][b](i, j) = along[j] * r.momentum[a][i];
     for (int a = 0; a < 4; ++a) k.continuity[a][b] = r.continuity[a] * along;
-    Mat3<T> mean = fluid::detail::zero_matrix<T>();  // of the variation of b.grad v, but for its sign
-    for (int q = 0; q < points; ++q)
-      mean = mean + (T(fe::quadratic_fourteen_points[q].weight) * dot(flows.at[q].b, along)) * flows.at[q].gradient;
     for (int q = 0; q < points; ++q) {
       const auto& point = fe::quadratic_fourteen_points[q];
       const PointFlow<T>& p = flows.at[q];
@@ -273,15 +272,14 @@ inline void shape_tangent(const Flow<T>& f, const PointFlows<T>& flows, const La
       Vec3<T> pulled;  // stress . along
       const T pressure = flows.tau_c * p.divergence - p.pressure, stream_along = dot(stream, along);
       for (int i = 0; i < 3; ++i) {
-        pulled[i] = p.along[i] * stream_along + p.weight * pressure * along[i];
+        pulled[i] = p.subscale[i] * stream_along + p.weight * pressure * along[i];
         for (int l = 0; l < 3; ++l) pulled[i] += p.weight * p.mu * twice_strain(i, l) * along[l];
       }
       for (int j = 0; j < 3; ++j) {
         const Vec3<T> column{{p.gradient(0, j), p.gradient(1, j), p.gradient(2, j)}};
         const T divergence = -dot(column, along);
         const Vec3<T> inertia = (-relative) * column;
-        const Vec3<T> mean_column{{mean(0, j), mean(1, j), mean(2, j)}};
-        const Vec3<T> fluctuation = mean_column - b_along * column;
+        const Vec3<T> subscale = (-b_along) * column;
         Vec3<T> force = (p.weight * T(rho)) * inertia;
         fluid::detail::add(force, T(0.5 * rho) * p.weight * divergence, p.v);
         T slope(0.0);
@@ -294,7 +292,7 @@ inline void shape_tangent(const Flow<T>& f, const PointFlows<T>& flows, const La
           for (int l = 0; l < 3; ++l)
             stress(i, l) =
                 p.weight * (slope * twice_strain(i, l) - p.mu * (column[i] * along[l] + column[l] * along[i])) +
-                fluctuation[i] * stream[l];
+                subscale[i] * stream[l];
         for (int i = 0; i < 3; ++i) stress(i, i) += p.weight * flows.tau_c * divergence;
         for (int a = 0; a < nodes; ++a) {
           const Vec3<T> d = stress * p.dN[a];
@@ -321,7 +319,7 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
   at_points(state, f, parameters, law, flows);
   const auto& at = flows.at;
   T transport[points][nodes];  // m N_b + c a.grad N_b
-  T stream[points][nodes];     // b.grad N_b less its mean
+  T stream[points][nodes];     // b.grad N_b
   const T c(time.velocity), m(time.acceleration);
   for (int q = 0; q < points; ++q) {
     const auto& point = fe::quadratic_fourteen_points[q];
@@ -331,11 +329,6 @@ inline void tangent(const ElementState<T>& state, const TimeCoefficients& time, 
       transport[q][b] = m * T(point.N[b]) + c * along;
       stream[q][b] = dot(at[q].b, at[q].dN[b]);
     }
-  }
-  for (int b = 0; b < nodes; ++b) {
-    T mean(0.0);
-    for (int q = 0; q < points; ++q) mean += T(fe::quadratic_fourteen_points[q].weight) * stream[q][b];
-    for (int q = 0; q < points; ++q) stream[q][b] -= mean;
   }
   ShapeTangent<T> shape;
   if (moves != nullptr) shape_tangent(f, flows, law, rho, motion, *moves, r, shape);
