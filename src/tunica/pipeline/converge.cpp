@@ -391,9 +391,11 @@ int converge(const ConvergeRequest& request, MPI_Comm comm, std::FILE* screen) {
     if (!lock.taken_over().empty()) std::fprintf(screen, "warning: %s\n", lock.taken_over().c_str());
     return planned;
   });
-  ChainRequest base = request.chain;
-  base.from = base.until = base.only = std::nullopt;
-  base.dry_run = false;
+  ChainRequest base;  // all its stages, whatever else was asked for
+  base.case_file = request.chain.case_file;
+  base.directory = request.chain.directory;
+  base.overwrite = request.chain.overwrite;
+  base.program = request.chain.program;
   if (const int signal = run_chain(base, comm, screen); signal != 0) return signal;
   std::vector<std::string> files = parallel::on_root(comm, [&] {
     write_levels(request, study);
