@@ -14,6 +14,7 @@
 #include "tunica/config/description.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/petsc.hpp"
+#include "tunica/wall/quadratic_element.hpp"
 
 namespace tunica::fuzz {
 
@@ -81,9 +82,9 @@ void read_one(const fs::path& file, const std::string& kind) {
   } else if (kind == "start") {
     auto state = c.start;
     artifacts::read_start(file, c.mesh, state, 42, "remove it");
-  } else if (kind == "prestress") {
+  } else if (kind == "prestress" || kind == "prestress_quadratic") {
     auto data = c.wall;
-    artifacts::read_prestress(file, data);
+    artifacts::read_prestress(file, data, kind == "prestress" ? 1 : wall::quadratic::points);
   } else if (kind == "outlets") {
     artifacts::parse_outlets(config::read_text(file), file, c.outlets);
   } else if (kind == "history") {

@@ -144,7 +144,7 @@ def vtk(kind, nodes, cells, how, cell_arrays, point_arrays=()):
     text += array("connectivity", flat, "Int64", "q")
     text += array("offsets", [size * (k + 1) for k in range(len(cells))], "Int64", "q")
     if volume:
-        text += array("types", [10] * len(cells), "UInt8", "B")
+        text += array("types", [24 if size == 10 else 10] * len(cells), "UInt8", "B")
     text += ("</Cells>\n" if volume else "</Polys>\n") + "</Piece>\n</%s>\n" % kind
     out = text.encode()
     if appended:
@@ -157,6 +157,20 @@ def volume(how, extra=()):
     region = ("region", [1, 1, 1, 2, 2, 2], "Int32", "i")
     return vtk("UnstructuredGrid", points[:8], lower, how, [ids, region, *extra],
                [("GlobalNodeID", range(1, 9), "Int32", "i")])
+
+
+def quadratic_volume(how, extra):
+    nodes, middle, cells = list(points[:8]), {}, []
+    for t in lower:
+        cell = list(t)
+        for a, b in ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)):
+            ends = tuple(sorted((t[a], t[b])))
+            if ends not in middle:
+                middle[ends] = len(nodes)
+                nodes.append(tuple((points[ends[0]][i] + points[ends[1]][i]) / 2 for i in range(3)))
+            cell.append(middle[ends])
+        cells.append(cell)
+    return vtk("UnstructuredGrid", nodes, cells, how, [("GlobalElementID", range(1, 7), "Int32", "i"), *extra])
 
 
 def face(triangles, how):
@@ -404,6 +418,10 @@ def artifacts_corpus():
               volume(how, [("prestress", [0.5 * k for k in range(36)], "Float64", "d", 6)]))
         write("artifacts/prestress/stretch_%s.vtu" % how,
               volume(how, [("prestress", [1, 0, 0, 0, 1, 0, 0, 0, 1] * 6, "Float64", "d", 9)]))
+        stress = [0.5 * k for k in range(36)]
+        names = ["prestress"] + ["prestress %d" % k for k in range(1, 5)]
+        write("artifacts/prestress_quadratic/stress_%s.vtu" % how,
+              quadratic_volume(how, [(name, stress, "Float64", "d", 6) for name in names]))
     rcr = "{rcr: {proximal: 1e8 Pa s/m^3, capacitance: 1e-9 m^3/Pa, distal: 1e9 Pa s/m^3, distal_pressure: 0 Pa, " \
         "initial_pressure: 1e4 Pa}}"
     write("artifacts/outlets/outlets.yaml",

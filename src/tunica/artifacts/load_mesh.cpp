@@ -8,6 +8,7 @@
 #include "tunica/artifacts/plausible_faces.hpp"
 #include "tunica/artifacts/prestress_file.hpp"
 #include "tunica/case/face_patterns.hpp"
+#include "tunica/coupling/wall_prestress.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/interface.hpp"
@@ -188,7 +189,10 @@ CheckedMesh load_mesh(const case_file::Case& c) {
   // were.
   const double moved = c.meshes.interface ? c.meshes.interface->tolerance : 0.0;
   if (const auto prestress = c.prestress_file())
-    collect(problems, [&] { read_prestress(*prestress, mesh.data, std::max(0.01, 2 * moved)); });
+    collect(problems, [&] {
+      const int points = coupling::prestress_points(c.elements == case_file::Elements::quadratic);
+      read_prestress(*prestress, mesh.data, points, std::max(0.01, 2 * moved));
+    });
   if (!problems.empty()) throw InputError(std::move(problems));
   // A mesh in the wrong unit makes every flow through it unusual: one warning is enough.
   if (!mesh::implausible_size(mesh.data, {}))

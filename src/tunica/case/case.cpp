@@ -241,11 +241,6 @@ void check_case(const Case& c, Problems& problems) {
       problems.add(part.key, fmt::format("is given, but `analysis: {}` does not use it", analysis),
                    "remove it, or choose another analysis");
   }
-  // A prestress that is constant in each element balances linear elements only.
-  const bool prestressed = c.solves_wall() && (c.prestress || (c.wall && c.wall->prestress));
-  if (c.elements == Elements::quadratic && prestressed)
-    problems.add("elements", "is `quadratic`, but a prestress is found and taken on linear elements alone",
-                 "choose `linear`, or leave the prestress out");
   check_chain(c, problems);
   check_keys("compare", c.compare, "compared law", problems);
   if (c.wall) check_keys("wall.regions", c.wall->regions, "region", problems);

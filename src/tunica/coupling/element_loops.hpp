@@ -18,7 +18,7 @@ struct WallGroupView {
   const double* weights = nullptr;  ///< of the laws [batch][law][lane], null for one law
   const double* bodies = nullptr;   ///< density, K, shear modulus at rest and present one [batch][4][lane]
   const double* frames = nullptr;   ///< e1 and e2 of the fibre frame [batch][6][lane], null for global axes
-  /// In the axes of the frame: S0 [Pa, batch][6][lane] or F0 [batch][9][lane]; null without.
+  /// In the axes of the frame: S0 [Pa, batch][point][6][lane] or F0 [batch][point][9][lane]; null without.
   const double *prestress = nullptr, *prestretch = nullptr;
 };
 

@@ -212,10 +212,9 @@ void Monitors::quadratic_wall_elements(std::size_t index, double (&sums)[3]) con
     Vec3<double> velocity[wq::nodes];
     gather(f.velocity_pressure, distributed::quadratic_nodes(region, static_cast<std::size_t>(e)), velocity);
     const auto [law, body] = model.material(index, e);
-    const auto S0 = model.prestress(index, e);
-    const auto* prestress = model.prestress().kind == wall::PrestressKind::stress ? &S0 : nullptr;
+    const auto prestress = model.point_prestress(index, e);
     sums[0] += wq::present_volume(s);
-    sums[1] += wq::kinetic_energy(s.reference.volume, velocity, body.density);
+    sums[1] += wq::kinetic_energy(wq::stress_free_volume(s, prestress), velocity, body.density);
     sums[2] += model.mixed() ? wq::strain_energy<true>(s, law, body, prestress)
                              : wq::strain_energy<false>(s, law, body, prestress);
   }
@@ -250,7 +249,7 @@ void Monitors::wall_elements(StepRecord& record) const {
       sums[2] +=
           model.mixed() ? wall::mixed_strain_energy(s, law, body) : wall::displacement_strain_energy(s, law, body);
       if (model.prestress().kind == wall::PrestressKind::stress)
-        sums[2] += wall::prestress_energy(s, model.prestress(i, e));
+        sums[2] += wall::prestress_energy(s, model.prestress(i, e, 0));
     }
   }
   parallel::global_sum(mesh.comm, sums);

@@ -28,7 +28,7 @@ constexpr std::size_t memory = 5;  // points of the acceleration
 
 WallPrestress without_prestress(const distributed::DistributedMesh& mesh, Method method) {
   WallPrestress p{.kind = method == Method::stress ? wall::PrestressKind::stress : wall::PrestressKind::stretch};
-  const auto n = static_cast<std::size_t>(wall::components(p.kind));
+  const auto n = static_cast<std::size_t>(wall::components(p.kind) * prestress_points(mesh.quadratic));
   for (const auto& region : mesh.regions) {
     auto& values = p.values.emplace_back();
     if (region.kind != mesh::RegionKind::wall) continue;
@@ -39,9 +39,9 @@ WallPrestress without_prestress(const distributed::DistributedMesh& mesh, Method
   return p;
 }
 
-/// dx/dX of the motion from the imaged shape, global axes; of a quadratic element its mean.
+/// dx/dX of the motion from the imaged shape at a point (prestress_points), global axes.
 Mat3<double> motion_gradient(const distributed::DistributedMesh& mesh, const State& state,
-                             const distributed::Region& region, std::size_t element) {
+                             const distributed::Region& region, std::size_t element, int point) {
   const auto& nodes = region.elements[element];
   wall::quadratic::ElementState<double> e{};
   Vec3<double> X[4];
@@ -55,7 +55,7 @@ Mat3<double> motion_gradient(const distributed::DistributedMesh& mesh, const Sta
   for (std::size_t k = 0; k < 6; ++k)
     e.displacement[4 + k] = vector_at(state.displacement.data(), region.edges[element][k]);
   e.reference = shape.reference;
-  return wall::deformation_gradient(wall::quadratic::at_centroid(e));
+  return wall::deformation_gradient(wall::quadratic::at_point(e, point, {}));
 }
 
 std::vector<double> flat(const WallPrestress& prestress) {
@@ -91,6 +91,8 @@ class FixedPoint {
   bool ramp(int steps);
   std::optional<State> first_solution();
   WallPrestress updated(const State& loaded) const;
+  /// `values`: the present prestress of the point q of an element, afterwards its next one.
+  void update_point(const State& loaded, std::size_t region, std::size_t element, int q, double* values) const;
   void set(const std::vector<double>& values);
   std::vector<double> displacements(const State& state) const;  ///< [prestressed owned node][3]
   /// What the next solution starts from: back in the imaged shape.
@@ -185,30 +187,35 @@ std::optional<State> FixedPoint::first_solution() {
 // (5.3) to (5.5). `loaded` is in equilibrium with the present prestress.
 WallPrestress FixedPoint::updated(const State& loaded) const {
   WallPrestress next = result_.prestress;
-  const WallModel& model = problem_.wall_model();
+  const int points = prestress_points(mesh_.quadratic), n = wall::components(next.kind);
   for (std::size_t r = 0; r < mesh_.regions.size(); ++r) {
     const auto& region = mesh_.regions[r];
     if (region.kind != mesh::RegionKind::wall || excluded(region)) continue;
-    for (std::size_t e = 0; e < region.elements.size(); ++e) {
-      const Mat3<double> F = motion_gradient(mesh_, loaded, region, e);
-      if (settings_.method == Method::stretch) {
-        Mat3<double> F0;
-        for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = next.values[r][9 * e + static_cast<std::size_t>(k)];
-        F0 = F * F0;
-        for (int k = 0; k < 9; ++k) next.values[r][9 * e + static_cast<std::size_t>(k)] = F0(k / 3, k % 3);
-        continue;
-      }
-      const auto element = static_cast<std::int32_t>(e);
-      const auto sigma = cauchy_stress(model, r, element, wall_element(mesh_, model, loaded, r, element));
-      const Mat3<double> P = wall::full(sigma) * transpose(adjugate(F));  // J sigma F^-T
-      const Mat3<double> S = settings_.update == Update::first_piola ? P : inverse(F) * P;
-      for (int n = 0; n < wall::voigt_size; ++n) {
-        const int i = wall::voigt_row[n], j = wall::voigt_column[n];
-        next.values[r][wall::voigt_size * e + static_cast<std::size_t>(n)] = 0.5 * (S(i, j) + S(j, i));
-      }
-    }
+    double* values = next.values[r].data();
+    for (std::size_t e = 0; e < region.elements.size(); ++e)
+      for (int q = 0; q < points; ++q, values += n) update_point(loaded, r, e, q, values);
   }
   return next;
+}
+
+void FixedPoint::update_point(const State& loaded, std::size_t r, std::size_t e, int q, double* values) const {
+  const Mat3<double> F = motion_gradient(mesh_, loaded, mesh_.regions[r], e, q);
+  if (settings_.method == Method::stretch) {
+    Mat3<double> F0;
+    for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = values[k];
+    F0 = F * F0;
+    for (int k = 0; k < 9; ++k) values[k] = F0(k / 3, k % 3);
+    return;
+  }
+  const WallModel& model = problem_.wall_model();
+  const auto element = static_cast<std::int32_t>(e);
+  const auto sigma = point_cauchy_stress(model, r, element, q, wall_point(mesh_, model, loaded, r, element, q));
+  const Mat3<double> P = wall::full(sigma) * transpose(adjugate(F));  // J sigma F^-T
+  const Mat3<double> S = settings_.update == Update::first_piola ? P : inverse(F) * P;
+  for (int n = 0; n < wall::voigt_size; ++n) {
+    const int i = wall::voigt_row[n], j = wall::voigt_column[n];
+    values[n] = 0.5 * (S(i, j) + S(j, i));
+  }
 }
 
 State FixedPoint::rest(const State& loaded) const {

@@ -25,24 +25,50 @@ TUNICA_INLINE void set_shape_of(const WallGroupView& group, std::int32_t batch, 
   wall::set_reference(state, X, e1, e2);
 }
 
-/// Reference of a batch: its imaged shape, or what the prestretch makes of it.
+/// F0 of a point, 9 W numbers.
+template <int W>
+TUNICA_INLINE Mat3<Pack<W>> load_stretch(const double* values) {
+  Mat3<Pack<W>> F0;
+  for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = Pack<W>::load(values + k * W);
+  return F0;
+}
+
+/// S0 of a point, 6 W numbers.
+template <int W>
+TUNICA_INLINE wall::Symmetric<Pack<W>> load_stress(const double* values) {
+  wall::Symmetric<Pack<W>> S0;
+  for (int k = 0; k < wall::voigt_size; ++k) S0[k] = Pack<W>::load(values + k * W);
+  return S0;
+}
+
+/// Reference of a batch of linear elements: its imaged shape, or what the prestretch makes of it.
 template <int W>
 TUNICA_INLINE void set_reference_of(const WallGroupView& group, std::int32_t batch, const Vec3<Pack<W>> (&X)[4],
                                     wall::ElementState<Pack<W>>& state) {
   set_shape_of<W>(group, batch, X, state);
   if (group.prestretch == nullptr) return;
-  const double* values = group.prestretch + static_cast<std::ptrdiff_t>(batch) * 9 * W;
-  Mat3<Pack<W>> F0;
-  for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = Pack<W>::load(values + k * W);
-  wall::set_prestretch(state, F0);
+  wall::set_prestretch(state, load_stretch<W>(group.prestretch + static_cast<std::ptrdiff_t>(batch) * 9 * W));
 }
 
 template <int W>
 TUNICA_INLINE wall::Symmetric<Pack<W>> prestress_of(const WallGroupView& group, std::int32_t batch) {
-  const double* values = group.prestress + static_cast<std::ptrdiff_t>(batch) * wall::voigt_size * W;
-  wall::Symmetric<Pack<W>> S0;
-  for (int k = 0; k < wall::voigt_size; ++k) S0[k] = Pack<W>::load(values + k * W);
-  return S0;
+  return load_stress<W>(group.prestress + static_cast<std::ptrdiff_t>(batch) * wall::voigt_size * W);
+}
+
+/// Prestress of a batch of quadratic elements.
+template <int W>
+TUNICA_INLINE void load_prestress(const WallGroupView& group, std::int32_t batch,
+                                  wall::quadratic::PointPrestress<Pack<W>>& prestress) {
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(batch) * wall::quadratic::points;
+  if (group.prestress != nullptr) {
+    prestress.kind = wall::PrestressKind::stress;
+    for (int q = 0; q < wall::quadratic::points; ++q)
+      prestress.stress[q] = load_stress<W>(group.prestress + (first + q) * wall::voigt_size * W);
+  } else if (group.prestretch != nullptr) {
+    prestress.kind = wall::PrestressKind::stretch;
+    for (int q = 0; q < wall::quadratic::points; ++q)
+      prestress.stretch[q] = load_stretch<W>(group.prestretch + (first + q) * 9 * W);
+  }
 }
 
 /// The blend of one batch as the kernels want it.
@@ -137,7 +163,7 @@ void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fiel
     wq::ElementState<Pack<W>> state;
     Vec3<Pack<W>> position[4], velocity[4];
     gather_vectors<W>(fields.reference_position, nodes, position);
-    set_reference_of<W>(group, batch, position, shape);
+    set_shape_of<W>(group, batch, position, shape);
     state.reference = shape.reference, state.axes = shape.axes;
     gather_vectors<W>(fields.displacement, nodes, state.displacement);
     gather_vectors<W>(fields.acceleration, nodes, state.acceleration);
@@ -145,9 +171,8 @@ void loop_over_quadratic_wall(const WallGroupView& group, const FieldsView& fiel
     const auto body = body_of<W>(group, batch, settings);
     const auto law = law_of<W, kind>(group, batch);
     const int used = used_lanes<W>(batches, batch);
-    wall::Symmetric<Pack<W>> S0;
-    if (group.prestress != nullptr) S0 = prestress_of<W>(group, batch);
-    const auto* prestress = group.prestress != nullptr ? &S0 : nullptr;
+    wq::PointPrestress<Pack<W>> prestress;
+    load_prestress<W>(group, batch, prestress);
     wq::ElementVector<Pack<W>> r;
     if (target.blocks != nullptr) {
       const std::int32_t* slots = batches.slots + static_cast<std::ptrdiff_t>(batch) * kinds * n * n * W;

@@ -46,9 +46,12 @@ WallPrestress prestress_of_mesh(const distributed::DistributedMesh& mesh, wall::
 /// Its kind, by the number of components; none where the mesh has no such array.
 wall::PrestressKind kind_in_mesh(const distributed::DistributedMesh& mesh) {
   for (const auto& region : mesh.regions)
-    for (const auto& field : region.fields)
-      if (field.name == wall::prestress_array)
-        return field.components == wall::voigt_size ? wall::PrestressKind::stress : wall::PrestressKind::stretch;
+    for (const auto& field : region.fields) {
+      if (field.name != wall::prestress_array) continue;
+      for (const auto kind : {wall::PrestressKind::stress, wall::PrestressKind::stretch})
+        if (field.components == prestress_points(mesh.quadratic) * wall::components(kind)) return kind;
+      throw std::invalid_argument("the prestress of the mesh has as many components as its elements need");
+    }
   return wall::PrestressKind::none;
 }
 
@@ -57,7 +60,8 @@ wall::PrestressKind kind_in_mesh(const distributed::DistributedMesh& mesh) {
 WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters)
     : mixed_(parameters.element == wall::Element::mixed),
       volumetric_energy_(parameters.volumetric_energy),
-      stabilisation_(parameters.stabilisation) {
+      stabilisation_(parameters.stabilisation),
+      points_(coupling::prestress_points(mesh.quadratic)) {
   const auto add = [&](const std::string& name, const wall::LawParameters& material, double density) {
     laws_.push_back(wall::make_law(material));
     densities_.push_back(density);
@@ -136,8 +140,8 @@ double WallModel::weight(std::size_t region, std::int32_t element, std::size_t m
   return weights_[regions_[region].weights[element] + static_cast<std::size_t>(found - present.begin())];
 }
 
-wall::ElementState<double> WallModel::at_rest(std::size_t region, std::int32_t element,
-                                              const Vec3<double> (&X)[4]) const {
+wall::ElementState<double> WallModel::imaged(std::size_t region, std::int32_t element,
+                                             const Vec3<double> (&X)[4]) const {
   wall::ElementState<double> state{};
   if (regions_[region].frames.empty()) {
     wall::set_reference(state, X);
@@ -146,7 +150,13 @@ wall::ElementState<double> WallModel::at_rest(std::size_t region, std::int32_t e
     wall::set_reference(state, X, Vec3<double>{{frame[0], frame[1], frame[2]}},
                         Vec3<double>{{frame[3], frame[4], frame[5]}});
   }
-  if (prestress_.kind == wall::PrestressKind::stretch) wall::set_prestretch(state, prestretch(region, element));
+  return state;
+}
+
+wall::ElementState<double> WallModel::at_rest(std::size_t region, std::int32_t element,
+                                              const Vec3<double> (&X)[4]) const {
+  auto state = imaged(region, element, X);
+  if (prestress_.kind == wall::PrestressKind::stretch) wall::set_prestretch(state, prestretch(region, element, 0));
   return state;
 }
 
@@ -157,47 +167,65 @@ Mat3<double> WallModel::axes(std::size_t region, std::int32_t element) const {
   return {{{e1[0], e2[0], e3[0]}, {e1[1], e2[1], e3[1]}, {e1[2], e2[2], e3[2]}}};
 }
 
-wall::Symmetric<double> WallModel::prestress(std::size_t region, std::int32_t element) const {
+const double* WallModel::prestress_at(std::size_t region, std::int32_t element, int point) const {
+  return prestress_.values[region].data() + static_cast<std::ptrdiff_t>(wall::components(prestress_.kind)) *
+                                                (static_cast<std::ptrdiff_t>(element) * points_ + point);
+}
+
+wall::Symmetric<double> WallModel::prestress(std::size_t region, std::int32_t element, int point) const {
   wall::Symmetric<double> S0{};
   if (prestress_.kind != wall::PrestressKind::stress) return S0;
-  const double* v = prestress_.values[region].data() + wall::voigt_size * static_cast<std::size_t>(element);
+  const double* v = prestress_at(region, element, point);
   for (int k = 0; k < wall::voigt_size; ++k) S0[k] = v[k];
   return wall::in_axes(axes(region, element), S0);
 }
 
-Mat3<double> WallModel::prestretch(std::size_t region, std::int32_t element) const {
-  const double* v = prestress_.values[region].data() + 9 * static_cast<std::size_t>(element);
+Mat3<double> WallModel::prestretch(std::size_t region, std::int32_t element, int point) const {
+  const double* v = prestress_at(region, element, point);
   Mat3<double> F0;
   for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = v[k];
   const Mat3<double> Q = axes(region, element);
   return transpose(Q) * F0 * Q;
 }
 
+wall::quadratic::PointPrestress<double> WallModel::point_prestress(std::size_t region, std::int32_t element) const {
+  wall::quadratic::PointPrestress<double> result{};
+  result.kind = prestress_.kind;
+  for (int q = 0; q < wall::quadratic::points; ++q) {
+    if (result.kind == wall::PrestressKind::stress) result.stress[q] = prestress(region, element, q);
+    if (result.kind == wall::PrestressKind::stretch) result.stretch[q] = prestretch(region, element, q);
+  }
+  return result;
+}
+
 void WallModel::fill_prestress(Group& group) const {
   group.prestress.clear(), group.prestretch.clear();
   if (prestress_.kind == wall::PrestressKind::none) return;
   const bool stress = prestress_.kind == wall::PrestressKind::stress;
-  const auto n = static_cast<std::size_t>(wall::components(prestress_.kind));
+  const auto n = static_cast<std::size_t>(wall::components(prestress_.kind)),
+             points = static_cast<std::size_t>(points_);
   const auto width = static_cast<std::size_t>(group.batches.width),
              batches = static_cast<std::size_t>(group.batches.batches());
   std::vector<double>& to = stress ? group.prestress : group.prestretch;
-  to.resize(batches * n * width);
+  to.resize(batches * points * n * width);
   const auto& members = group.batches.elements_of_region;
   for (std::size_t lane = 0; lane < batches * width; ++lane) {
     const auto element = members[std::min(lane, members.size() - 1)];
-    double* values = to.data() + lane / width * n * width + lane % width;
-    if (stress) {
-      const auto S0 = prestress(group.region, element);
-      for (std::size_t c = 0; c < n; ++c) values[c * width] = S0[static_cast<int>(c)];
-    } else {
-      const auto F0 = prestretch(group.region, element);
-      for (std::size_t c = 0; c < n; ++c) values[c * width] = F0(static_cast<int>(c) / 3, static_cast<int>(c) % 3);
+    for (std::size_t q = 0; q < points; ++q) {
+      double* values = to.data() + (lane / width * points + q) * n * width + lane % width;
+      if (stress) {
+        const auto S0 = prestress(group.region, element, static_cast<int>(q));
+        for (std::size_t c = 0; c < n; ++c) values[c * width] = S0[static_cast<int>(c)];
+      } else {
+        const auto F0 = prestretch(group.region, element, static_cast<int>(q));
+        for (std::size_t c = 0; c < n; ++c) values[c * width] = F0(static_cast<int>(c) / 3, static_cast<int>(c) % 3);
+      }
     }
   }
 }
 
 void WallModel::set_prestress(WallPrestress prestress, std::vector<Group>& groups) {
-  const auto n = static_cast<std::size_t>(wall::components(prestress.kind));
+  const auto n = static_cast<std::size_t>(wall::components(prestress.kind) * points_);
   for (std::size_t r = 0; r < regions_.size() && n > 0; ++r)
     if (prestress.values.size() != regions_.size() || prestress.values[r].size() != n * regions_[r].blend.size())
       throw std::invalid_argument("set_prestress: as many values as the wall elements need");

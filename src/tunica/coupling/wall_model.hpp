@@ -34,16 +34,21 @@ class WallModel {
   };
   ElementMaterial material(std::size_t region, std::int32_t element) const;
 
-  /// The element with the corners X [m] at rest: gradients in its fibre frame, or in global axes where no law needs
-  /// one; referred to its stress-free state where it is prestretched.
+  /// The element with the corners X [m] in the imaged shape: gradients in its fibre frame, or in global axes where no
+  /// law needs one.
+  wall::ElementState<double> imaged(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const;
+  /// The same of a linear element, referred to its stress-free state where it is prestretched.
   wall::ElementState<double> at_rest(std::size_t region, std::int32_t element, const Vec3<double> (&X)[4]) const;
 
   /// e1 and e2 of the fibre frame of each element of a region, [element][6]; empty where no law needs one.
   const std::vector<double>& frames(std::size_t region) const { return regions_[region].frames; }
 
   const WallPrestress& prestress() const { return prestress_; }
-  /// S0 of an element in the axes of its gradients [Pa]; zero without.
-  wall::Symmetric<double> prestress(std::size_t region, std::int32_t element) const;
+  /// S0 of an element at a point (prestress_points) in the axes of its gradients [Pa]; zero without.
+  wall::Symmetric<double> prestress(std::size_t region, std::int32_t element, int point) const;
+  /// Prestress of a quadratic element.
+  wall::quadratic::PointPrestress<double> point_prestress(std::size_t region, std::int32_t element) const;
+  int prestress_points() const { return points_; }
 
   /// Weight of a material in an element: 0 is that of all regions without one of their own, then the others by name.
   double weight(std::size_t region, std::int32_t element, std::size_t material) const;
@@ -58,7 +63,7 @@ class WallModel {
     std::vector<double> weights;  ///< [batch][law][lane], empty for one law
     std::vector<double> bodies;   ///< [batch][density, K, mu at rest, mu present][lane]
     std::vector<double> frames;   ///< [batch][6][lane], empty without frames
-    /// Of the kind that the model has [batch][component][lane], axes of the frames; empty without.
+    /// Of the kind that the model has [batch][point][component][lane], axes of the frames; empty without.
     std::vector<double> prestress, prestretch;
 
     WallGroupView view() const;
@@ -89,7 +94,8 @@ class WallModel {
   };
   /// Axes of the gradients of an element, before any prestretch.
   Mat3<double> axes(std::size_t region, std::int32_t element) const;
-  Mat3<double> prestretch(std::size_t region, std::int32_t element) const;
+  Mat3<double> prestretch(std::size_t region, std::int32_t element, int point) const;
+  const double* prestress_at(std::size_t region, std::int32_t element, int point) const;
   void fill_prestress(Group& group) const;
   double blended(const std::vector<double>& of_material, const Blend& blend, const double* weights) const;
 
@@ -103,6 +109,7 @@ class WallModel {
   std::vector<double> weights_;
   std::vector<RegionModel> regions_;  ///< [region of the mesh], empty for the lumen
   WallPrestress prestress_;
+  int points_;  ///< of an element that have a prestress each
 };
 
 }  // namespace tunica::coupling

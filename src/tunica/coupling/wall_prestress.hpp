@@ -2,14 +2,17 @@
 
 #include <vector>
 
-#include "tunica/wall/prestress.hpp"
+#include "tunica/wall/quadratic_element.hpp"
 
 namespace tunica::coupling {
 
-/// Prestress of all local wall elements, ghosts included.
+/// Prestress of all local wall elements, ghosts included, at their points of quadrature (prestress_points).
 struct WallPrestress {
   wall::PrestressKind kind = wall::PrestressKind::none;
-  std::vector<std::vector<double>> values{};  ///< [region of the mesh][element][component], global axes
+  std::vector<std::vector<double>> values{};  ///< [region of the mesh][element][point][component], global axes
 };
+
+/// Points of an element that have a prestress each.
+constexpr int prestress_points(bool quadratic) { return quadratic ? wall::quadratic::points : 1; }
 
 }  // namespace tunica::coupling

@@ -16,6 +16,9 @@ void take_elements(const MeshData& whole, RegionKind kind, Submesh& part, std::v
       part.elements.push_back(e);
       part.data.tetrahedra.push_back(corners);
       for (const auto n : corners) number[static_cast<std::size_t>(n)] = 0;
+      if (whole.edges.empty()) continue;
+      part.data.edges.push_back(whole.edges[static_cast<std::size_t>(e)]);
+      for (const auto n : part.data.edges.back()) number[static_cast<std::size_t>(n)] = 0;
     }
     part.data.regions.push_back({region.name, kind, first, std::ssize(part.elements)});
   }
@@ -42,17 +45,20 @@ Submesh submesh(const MeshData& whole, RegionKind kind) {
     part.nodes.push_back(static_cast<Index>(n));
     part.data.points.push_back(whole.points[n]);
   }
-  const auto renumber = [&](auto& corners) {
-    for (auto& n : corners) n = number[static_cast<std::size_t>(n)];
+  const auto renumber = [&](auto& cells) {
+    for (auto& nodes : cells)
+      for (auto& n : nodes) n = number[static_cast<std::size_t>(n)];
   };
-  for (auto& corners : part.data.tetrahedra) renumber(corners);
+  renumber(part.data.tetrahedra);
+  renumber(part.data.edges);
   std::vector<std::int32_t> region_of(whole.regions.size(), -1);
   for (std::size_t r = 0, next = 0; r < whole.regions.size(); ++r)
     if (whole.regions[r].kind == kind) region_of[r] = static_cast<std::int32_t>(next++);
   for (auto face : whole.faces) {
     if (region_of[static_cast<std::size_t>(face.region)] < 0) continue;
     face.region = region_of[static_cast<std::size_t>(face.region)];
-    for (auto& triangle : face.triangles) renumber(triangle);
+    renumber(face.triangles);
+    renumber(face.edges);
     part.data.faces.push_back(std::move(face));
   }
   take_fields(whole, part);

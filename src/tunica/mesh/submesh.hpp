@@ -13,7 +13,8 @@ struct Submesh {
   std::vector<std::int64_t> nodes, elements;  ///< their numbers in the whole mesh, ascending
 };
 
-/// Regions, faces and fields of one kind; twins are left out. Empty where the mesh has no such region.
+/// Regions, faces and fields of one kind, with their nodes on edges; twins are left out. Empty where the mesh has no
+/// such region.
 Submesh submesh(const MeshData& whole, RegionKind kind);
 
 }  // namespace tunica::mesh

@@ -1,10 +1,13 @@
 // Prestress: what an imaged wall carries in the shape in which it was imaged (docs/theory.md, section 5).
 //
-// Additive: the stress S + S0 in place of S (Hsu & Bazilevs 2011), S0 constant in the element:
+// S0 and F0 belong to the points of quadrature: one in a linear element, four in a quadratic one, each of which is a
+// linear element with a share of the volume (quadratic_element.hpp).
+//
+// Additive: the stress S + S0 in place of S (Hsu & Bazilevs 2011):
 //   P = F (S + S0),   r_a += V F S0 grad_X N_a,   K_ab,ij += c_u V delta_ij grad_X N_a . S0 grad_X N_b            (5.1)
 // The state at rest is u = 0 with p = 0: the pressure unknown of the mixed element counts from the imaged state.
 //
-// Multiplicative: the law sees F F0, F0 leading from the element's own stress-free state to the imaged one:
+// Multiplicative: the law sees F F0, F0 leading from the point's own stress-free state to the imaged one:
 //   P = F F0 S(F F0) F0^T / det F0,   grad_0 N_a = F0^T grad_X N_a,   V_0 = V / det F0                           (5.2)
 // An element state that is referred to the stress-free element is an element state like any other, so no kernel has to
 // know of it.
@@ -20,10 +23,10 @@ enum class PrestressKind {
   stretch  ///< F0, 9 numbers, row by row [-]
 };
 
-/// Cell array in which prestress comes with the elements of a mesh, 6 or 9 components.
+/// Cell array in which prestress comes with the elements of a mesh, [point][6 or 9 components].
 inline constexpr const char* prestress_array = "prestress";
 
-/// Numbers for each element.
+/// Numbers for each point.
 constexpr int components(PrestressKind kind) {
   return kind == PrestressKind::none ? 0 : kind == PrestressKind::stress ? voigt_size : 9;
 }

@@ -12,7 +12,8 @@
 //   F = axes + sum_k U_k (x) g_k,   P grad N_b = sum_k slope_bk P g_k,
 // and the kernels of the linear element serve each point: forces and tangent of its four corners are spread over ten.
 //
-// Prestress S0 is constant in the element, as is F0, which comes with reference and axes (prestress.hpp).
+// Prestress S0 or F0 (prestress.hpp) is that of each point, where the linear element takes it. Masses are those of the
+// stress-free state: V_0 = sum_q w_q V / det F0_q.
 #pragma once
 
 #include <type_traits>
@@ -28,11 +29,22 @@ inline constexpr int points = 4;
 /// Nodal values of one element, or of a batch of elements; see the linear one.
 template <class T>
 struct ElementState {
-  fe::Gradients<T> reference;    ///< of the barycentric coordinates
-  Mat3<T> axes = identity<T>();  ///< columns: axes of these gradients, or times F0
+  fe::Gradients<T> reference;    ///< of the barycentric coordinates, without any prestretch
+  Mat3<T> axes = identity<T>();  ///< columns: axes of these gradients
   Vec3<T> displacement[nodes];   ///< u at t_{n+alpha_f} [m]
   Vec3<T> acceleration[nodes];   ///< v_dot at t_{n+alpha_m} [m/s^2]
   T pressure[fe::nodes];         ///< p of the corners at t_{n+1} [Pa], mixed element only
+};
+
+/// Prestress of one element, axes of its gradients.
+template <class T>
+struct PointPrestress {
+  PrestressKind kind = PrestressKind::none;
+  Symmetric<T> stress[points];  ///< S0 [Pa], unless of another kind
+  Mat3<T> stretch[points];      ///< F0, unless of another kind
+
+  /// S0 of a point; null where there is none.
+  const Symmetric<T>* stress_of(int q) const { return kind == PrestressKind::stress ? &stress[q] : nullptr; }
 };
 
 /// Residual of an element: momentum of all nodes [N], constraint of the corners s [m^3].
@@ -52,8 +64,9 @@ struct TangentRow {
   T compressibility[fe::nodes];  ///< d constraint / d p; corners only
 };
 
-/// The linear element that stands for this one at a point: same F, the pressure of the point at all corners, no
-/// acceleration, the share of the point of the volume. Its displacements are those of the corner 0 and what F needs.
+/// The linear element that stands for this one at a point: same F from the imaged shape, the pressure of the point at
+/// all corners, no acceleration, the share of the point of the volume. Its displacements are those of the corner 0 and
+/// what F needs.
 template <class T>
 inline wall::ElementState<T> at_point(const ElementState<T>& e, const fe::QuadraticPoint& point) {
   wall::ElementState<T> s;
@@ -76,16 +89,42 @@ inline wall::ElementState<T> at_point(const ElementState<T>& e, const fe::Quadra
   return s;
 }
 
-/// The same at the centroid with all of the volume, and with the displacement of the centroid in the mean: what outputs
-/// with one value for each element are taken from.
+/// The same at the point of quadrature q, referred to its stress-free state where it is prestretched.
 template <class T>
-inline wall::ElementState<T> at_centroid(const ElementState<T>& e) {
+inline wall::ElementState<T> at_point(const ElementState<T>& e, int q,
+                                      const std::type_identity_t<PointPrestress<T>>& prestress) {
+  wall::ElementState<T> s = at_point(e, fe::quadratic_four_points[static_cast<std::size_t>(q)]);
+  if (prestress.kind == PrestressKind::stretch) set_prestretch(s, prestress.stretch[q]);
+  return s;
+}
+
+/// Volume of the stress-free state [m^3].
+template <class T>
+inline T stress_free_volume(const ElementState<T>& e, const std::type_identity_t<PointPrestress<T>>& prestress) {
+  if (prestress.kind != PrestressKind::stretch) return e.reference.volume;
+  T sum(0.0);
+  for (int q = 0; q < points; ++q)
+    sum += T(fe::quadratic_four_points[static_cast<std::size_t>(q)].weight) * e.reference.volume /
+           determinant(prestress.stretch[q]);
+  return sum;
+}
+
+/// Mean of the points, which is the value at the centroid of what is linear between them.
+template <class Value>
+inline Value mean_of_points(const Value (&values)[points]) {
+  return 0.25 * (values[0] + values[1] + values[2] + values[3]);
+}
+
+/// The same at the centroid with all of the volume, the mean prestretch, and the displacement of the centroid in the
+/// mean: what outputs with one value for each element are taken from.
+inline wall::ElementState<double> at_centroid(const ElementState<double>& e, const PointPrestress<double>& prestress) {
   constexpr fe::QuadraticPoint centroid = fe::quadratic_point({0.25, 0.25, 0.25, 0.25}, 1.0);
-  wall::ElementState<T> s = at_point(e, centroid);
-  Vec3<T> shift{{T(0.0), T(0.0), T(0.0)}};
-  for (int b = 0; b < nodes; ++b) shift = shift + T(centroid.N[b]) * e.displacement[b];
-  for (int a = 0; a < fe::nodes; ++a) shift = shift + T(-0.25) * s.displacement[a];
+  wall::ElementState<double> s = at_point(e, centroid);
+  Vec3<double> shift{};
+  for (int b = 0; b < nodes; ++b) shift = shift + centroid.N[b] * e.displacement[b];
+  for (int a = 0; a < fe::nodes; ++a) shift = shift - 0.25 * s.displacement[a];
   for (int a = 0; a < fe::nodes; ++a) s.displacement[a] = s.displacement[a] + shift;
+  if (prestress.kind == PrestressKind::stretch) set_prestretch(s, mean_of_points(prestress.stretch));
   return s;
 }
 
@@ -112,10 +151,9 @@ TUNICA_INLINE Value combined(const Value (&of_corner)[fe::nodes], const fe::Quad
   return first + (weight * Scalar(point.slope[b][1])) * of_corner[fe::gradient_of[b][1]];
 }
 
-/// Inertia with the consistent mass; sets all of the residual.
+/// Inertia with the consistent mass [kg]; sets all of the residual.
 template <class T>
-inline void start(const ElementState<T>& e, const T& density, ElementVector<T>& r) {
-  const T mass = density * e.reference.volume;
+inline void start(const ElementState<T>& e, const T& mass, ElementVector<T>& r) {
   for (int a = 0; a < nodes; ++a) {
     Vec3<T> sum = T(fe::quadratic_mass[a][0]) * e.acceleration[0];
     for (int b = 1; b < nodes; ++b) sum = sum + T(fe::quadratic_mass[a][b]) * e.acceleration[b];
@@ -173,11 +211,12 @@ struct PointTangent {
   Mat3<T> stiffness[fe::nodes][fe::nodes];
   Vec3<T> dilation[fe::nodes];  ///< V J grad_x l_a
   T slope;                      ///< s du/dx dg/dJ
+  T volume;                     ///< share of the stress-free one [m^3]
 };
 
-/// Row a, pressure parts of the mixed element.
+/// Row a, pressure parts of the mixed element; `spring`: s/K.
 template <class T>
-inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, TangentRow<T>& row) {
+inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, const T& spring, TangentRow<T>& row) {
   const Vec3<T> zero{{T(0.0), T(0.0), T(0.0)}};
   for (Vec3<T>& column : row.pressure) column = zero;
   for (int q = 0; q < points; ++q) {
@@ -186,6 +225,14 @@ inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, Ta
     for (int b = 0; b < fe::nodes; ++b) row.pressure[b] = row.pressure[b] + T(point.barycentric[b]) * push;
   }
   if (a >= fe::nodes) return;
+  for (int b = 0; b < fe::nodes; ++b) {
+    T mass(0.0);
+    for (int q = 0; q < points; ++q) {
+      const auto& point = fe::quadratic_four_points[q];
+      mass += T(point.barycentric[a] * point.barycentric[b]) * tangents[q].volume;
+    }
+    row.compressibility[b] = spring * mass;
+  }
   for (int b = 0; b < nodes; ++b) {
     row.constraint[b] = zero;
     for (int q = 0; q < points; ++q) {
@@ -215,16 +262,17 @@ inline void motion_of_row(const PointTangent<T> (&tangents)[points], int a, cons
 
 }  // namespace detail
 
-/// Residual of the mixed or the displacement element (finite K). `S0` [Pa, axes of the gradients] may be null.
+/// Residual of the mixed or the displacement element (finite K).
 template <bool mixed, class T, class L, class U>
 inline void residual(const ElementState<T>& e, const L& law, const BodyOf<U>& body, const Coefficients& c,
-                     const std::type_identity_t<Symmetric<T>>* S0, ElementVector<T>& r) {
-  detail::start(e, T(body.density), r);
-  for (const auto& point : fe::quadratic_four_points) {
-    const wall::ElementState<T> s = at_point(e, point);
+                     const std::type_identity_t<PointPrestress<T>>& prestress, ElementVector<T>& r) {
+  detail::start(e, T(body.density) * stress_free_volume(e, prestress), r);
+  for (int q = 0; q < points; ++q) {
+    const auto& point = fe::quadratic_four_points[q];
+    const wall::ElementState<T> s = at_point(e, q, prestress);
     const Kinematics<T> k = kinematics(s);
     fe::ElementVector<T> force;
-    detail::point_forces(s, k, law, detail::isotropic_stress<mixed>(s, k.J, body), S0, force);
+    detail::point_forces(s, k, law, detail::isotropic_stress<mixed>(s, k.J, body), prestress.stress_of(q), force);
     detail::spread(force, point, r);
     if constexpr (mixed) detail::add_constraint(s, k.J, point, body, c.constraint, r);
   }
@@ -234,34 +282,33 @@ inline void residual(const ElementState<T>& e, const L& law, const BodyOf<U>& bo
 /// in the nearest cache.
 template <bool mixed, class T, class L, class U, class Take>
 inline void tangent(const ElementState<T>& e, const L& law, const BodyOf<U>& body, const Coefficients& c,
-                    const std::type_identity_t<Symmetric<T>>* S0, ElementVector<T>& r, Take&& take) {
-  detail::start(e, T(body.density), r);
+                    const std::type_identity_t<PointPrestress<T>>& prestress, ElementVector<T>& r, Take&& take) {
+  const T rest_mass = T(body.density) * stress_free_volume(e, prestress);
+  detail::start(e, rest_mass, r);
   detail::PointTangent<T> tangents[points];
   for (int q = 0; q < points; ++q) {
     const auto& point = fe::quadratic_four_points[q];
-    const wall::ElementState<T> s = at_point(e, point);
+    const wall::ElementState<T> s = at_point(e, q, prestress);
     const Kinematics<T> k = kinematics(s);
     const T pi = detail::isotropic_stress<mixed>(s, k.J, body);
     T kappa = pi;  // at fixed p
     if constexpr (!mixed) kappa += k.J * k.J * T(body.volumetric.bulk_modulus) * body.volumetric.unit_stiffness(k.J);
     fe::ElementVector<T> force;
-    detail::point_tangent(s, k, law, pi, kappa, c.displacement, S0, force, tangents[q].stiffness);
+    detail::point_tangent(s, k, law, pi, kappa, c.displacement, prestress.stress_of(q), force, tangents[q].stiffness);
     detail::spread(force, point, r);
     if constexpr (mixed) {
       detail::add_constraint(s, k.J, point, body, c.constraint, r);
       for (int a = 0; a < fe::nodes; ++a) tangents[q].dilation[a] = (s.reference.volume * k.J) * k.dN_x[a];
+      tangents[q].volume = s.reference.volume;
       tangents[q].slope = T(c.constraint * c.displacement) * body.volumetric.unit_stiffness(k.J);
     }
   }
-  const T mass = T(c.acceleration) * T(body.density) * e.reference.volume;
-  const T spring = T(c.constraint / 20.0) * T(body.volumetric.compressibility()) * e.reference.volume;
+  const T mass = T(c.acceleration) * rest_mass;
+  const T spring = T(c.constraint) * T(body.volumetric.compressibility());
   for (int a = 0; a < nodes; ++a) {
     TangentRow<T> row;
     detail::motion_of_row(tangents, a, mass, row);
-    if constexpr (mixed) {
-      detail::pressure_of_row(tangents, a, row);
-      for (int b = 0; b < fe::nodes; ++b) row.compressibility[b] = a == b ? spring + spring : spring;
-    }
+    if constexpr (mixed) detail::pressure_of_row(tangents, a, spring, row);
     take(a, row);
   }
 }

@@ -15,7 +15,7 @@ inline T kinetic_energy(const T& volume, const Vec3<T> (&velocity)[nodes], doubl
   return T(0.5 * density) * volume * sum;
 }
 
-/// Present volume [m^3]; `e` may be prestretched.
+/// Present volume [m^3].
 template <class T>
 inline T present_volume(const ElementState<T>& e) {
   T sum(0.0);
@@ -26,18 +26,18 @@ inline T present_volume(const ElementState<T>& e) {
   return sum;
 }
 
-/// Stored energy [J], see output.hpp, with that of the prestress S0 [Pa, axes of the gradients], which may be null.
+/// Stored energy [J], see output.hpp, with that of the prestress.
 template <bool mixed, class T, class L>
 inline T strain_energy(const ElementState<T>& e, const L& law, const Body& body,
-                       const std::type_identity_t<Symmetric<T>>* S0) {
+                       const std::type_identity_t<PointPrestress<T>>& prestress) {
   T sum(0.0);
-  for (const auto& point : fe::quadratic_four_points) {
-    const wall::ElementState<T> s = at_point(e, point);
+  for (int q = 0; q < points; ++q) {
+    const wall::ElementState<T> s = at_point(e, q, prestress);
     if constexpr (mixed)
       sum += mixed_strain_energy(s, law, body);  // without the subscale, as there is no gradient of p
     else
       sum += displacement_strain_energy(s, law, body);
-    if (S0 != nullptr) sum += prestress_energy(s, *S0);
+    if (const auto* S0 = prestress.stress_of(q)) sum += prestress_energy(s, *S0);
   }
   return sum;
 }

@@ -61,7 +61,7 @@ double largest_displacement(const fs::path& results) {
 
 struct Variant {
   const char* name;
-  std::string wall, section;
+  std::string wall, section, elements = "linear";
 };
 
 class PrestressedTube : public testing::TestWithParam<Variant> {};
@@ -69,7 +69,8 @@ class PrestressedTube : public testing::TestWithParam<Variant> {};
 // The asked 1e-4 of the radius are 0.5 um; without prestress the wall moves by a quarter of a millimetre.
 TEST_P(PrestressedTube, StaysWhereItIs) {
   const SharedFolder folder;
-  const auto file = folder.write("case.yaml", steady_case(GetParam().wall, GetParam().section));
+  const auto file = folder.write(
+      "case.yaml", steady_case(GetParam().wall, GetParam().section) + "elements: " + GetParam().elements + "\n");
   find(file, folder.path() / "prestress");
   run(file);
   const double moved = largest_displacement(folder.path() / "results");
@@ -85,7 +86,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Variant{"displacement",
                             "  element: displacement\n  material: {neo_hooke: {young_modulus: 400 kPa, "
                             "poisson_ratio: 0.3}}\n",
-                            ""}),
+                            ""},
+                    Variant{"quadratic", neo_hooke, "", "quadratic"},
+                    Variant{"quadratic_dfd_stretch", dfd, ", method: stretch", "quadratic"},
+                    Variant{"quadratic_displacement",
+                            "  element: displacement\n  material: {neo_hooke: {young_modulus: 400 kPa, "
+                            "poisson_ratio: 0.3}}\n",
+                            "", "quadratic"}),
     [](const auto& variant) { return variant.param.name; });
 
 TEST(Prestress, WithoutItTheTubeIsBlownUpOnceMore) {
@@ -99,9 +106,16 @@ TEST(Prestress, WithoutItTheTubeIsBlownUpOnceMore) {
   EXPECT_GT(largest_displacement(folder.path() / "results"), 0.05);
 }
 
-TEST(Prestress, IsTheSameOnAnyNumberOfRanks) {
+class PrestressOf : public testing::TestWithParam<const char*> {
+ protected:
+  std::string with_elements() const { return steady_case(neo_hooke) + "elements: " + GetParam() + "\n"; }
+};
+INSTANTIATE_TEST_SUITE_P(Elements, PrestressOf, testing::Values("linear", "quadratic"),
+                         [](const auto& elements) { return std::string(elements.param); });
+
+TEST_P(PrestressOf, IsTheSameOnAnyNumberOfRanks) {
   const SharedFolder folder;
-  const auto file = folder.write("case.yaml", steady_case(neo_hooke));
+  const auto file = folder.write("case.yaml", with_elements());
   find(file, folder.path() / "prestress");
   if (parallel::rank(MPI_COMM_WORLD) == 0) find(file, folder.path() / "alone", MPI_COMM_SELF);
   MPI_Barrier(MPI_COMM_WORLD);
@@ -118,9 +132,9 @@ TEST(Prestress, IsTheSameOnAnyNumberOfRanks) {
   EXPECT_NEAR(a.last("max displacement [mm]"), b.last("max displacement [mm]"), 2e-4);
 }
 
-TEST(Prestress, RunGoesOnBitForBit) {
+TEST_P(PrestressOf, RunGoesOnBitForBit) {
   const SharedFolder folder;
-  const auto file = folder.write("case.yaml", steady_case(neo_hooke));
+  const auto file = folder.write("case.yaml", with_elements());
   find(file, folder.path() / "prestress");
   stages::RunRequest request;
   request.directory = folder.path() / "whole";

@@ -43,10 +43,10 @@ struct NaiveSystem {
 
   template <bool mixed>
   void add(const std::array<std::int32_t, 10>& nodes, const wq::ElementState<double>& state, const wall::Law& law,
-           const wall::Body& body, const wall::Symmetric<double>* S0) {
+           const wall::Body& body, const wq::PointPrestress<double>& prestress) {
     const auto place = [&](int a, int i) { return i < 3 ? mesh.host[nodes[a]] : nodes[a]; };
     wq::ElementVector<double> r;
-    wq::tangent<mixed>(state, std::get<wall::NeoHooke>(law), body, coefficients, S0, r,
+    wq::tangent<mixed>(state, std::get<wall::NeoHooke>(law), body, coefficients, prestress, r,
                        [&](int a, const wq::TangentRow<double>& row) {
                          for (int b = 0; b < 10; ++b)
                            for (int i = 0; i < 4; ++i)
@@ -66,11 +66,13 @@ struct NaiveSystem {
   }
 };
 
-struct QuadraticWallLoop : testing::TestWithParam<wall::Element> {
+using Prestressed = std::pair<wall::Element, wall::PrestressKind>;
+
+struct QuadraticWallLoop : testing::TestWithParam<Prestressed> {
   distributed::DistributedMesh mesh = distributed::distribute(quadratic_tube(), MPI_COMM_WORLD);
   assembly::BlockPattern pattern = assembly::make_pattern(mesh);
   test::Fields fields = test::random_fields(mesh, {.displacement = 2e-5});
-  wall::Parameters wall = test::soft_wall(GetParam());
+  wall::Parameters wall = test::soft_wall(GetParam().first);
   WallModel model;
 
   // The last element is left out, so that the last batches have spare lanes.
@@ -89,11 +91,11 @@ struct QuadraticWallLoop : testing::TestWithParam<wall::Element> {
         std::copy(region.elements[e].begin(), region.elements[e].end(), nodes.begin());
         std::copy(region.edges[e].begin(), region.edges[e].end(), nodes.begin() + 4);
         const auto state = quadratic_wall_element(mesh, model, fields.view(), r, index);
-        const auto S0 = model.prestress(r, index);
-        if (GetParam() == wall::Element::mixed)
-          naive.add<true>(nodes, state, wall.law(), wall.body(), &S0);
+        const auto prestress = model.point_prestress(r, index);
+        if (GetParam().first == wall::Element::mixed)
+          naive.add<true>(nodes, state, wall.law(), wall.body(), prestress);
         else
-          naive.add<false>(nodes, state, wall.law(), wall.body(), &S0);
+          naive.add<false>(nodes, state, wall.law(), wall.body(), prestress);
       }
     }
   }
@@ -101,12 +103,15 @@ struct QuadraticWallLoop : testing::TestWithParam<wall::Element> {
 
 TEST_P(QuadraticWallLoop, AddsUpToTheSumOverElementsForEveryInstructionSet) {
   std::vector<WallModel::Group> none;
-  WallPrestress prestress{.kind = wall::PrestressKind::stress};
+  WallPrestress prestress{.kind = GetParam().second};
+  const auto n = static_cast<std::size_t>(wall::components(prestress.kind));
   for (const auto& region : mesh.regions) {
     auto& values = prestress.values.emplace_back();
     if (region.kind == mesh::RegionKind::wall)
-      for (std::size_t k = 0; k < 6 * region.elements.size(); ++k)
-        values.push_back(1e3 * test::noise(static_cast<std::int64_t>(k), 1));
+      for (std::size_t k = 0; k < 4 * n * region.elements.size(); ++k) {
+        const double value = test::noise(static_cast<std::int64_t>(k), 1);
+        values.push_back(n == 6 ? 1e3 * value : 0.1 * value + (k % 9 % 4 == 0 ? 1.0 : 0.0));
+      }
   }
   model.set_prestress(prestress, none);
   NaiveSystem naive(mesh);
@@ -149,9 +154,15 @@ TEST_P(QuadraticWallLoop, AddsUpToTheSumOverElementsForEveryInstructionSet) {
   EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, split), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Walls, QuadraticWallLoop, testing::Values(wall::Element::mixed, wall::Element::displacement),
-                         [](const auto& element) {
-                           return element.param == wall::Element::mixed ? "Mixed" : "Displacement";
+INSTANTIATE_TEST_SUITE_P(Walls, QuadraticWallLoop,
+                         testing::Values(Prestressed{wall::Element::mixed, wall::PrestressKind::stress},
+                                         Prestressed{wall::Element::mixed, wall::PrestressKind::stretch},
+                                         Prestressed{wall::Element::displacement, wall::PrestressKind::stress},
+                                         Prestressed{wall::Element::displacement, wall::PrestressKind::stretch}),
+                         [](const auto& prestressed) {
+                           return std::string(prestressed.param.first == wall::Element::mixed ? "Mixed"
+                                                                                              : "Displacement") +
+                                  (prestressed.param.second == wall::PrestressKind::stress ? "Stress" : "Stretch");
                          });
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "check_mesh.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/point_locator.hpp"
 #include "tunica/mesh/submesh.hpp"
@@ -102,6 +103,36 @@ TEST(Submesh, LumenAndWallApartAreWhatTheyWereTogether) {
   EXPECT_EQ(elements, whole.tetrahedra.size());
   EXPECT_EQ(faces, whole.faces.size());
   EXPECT_TRUE(submesh(box(1, 1, 1, {{1, 1, 1}}, RegionKind::wall), RegionKind::lumen).data.points.empty());
+}
+
+TEST(Submesh, OfQuadraticElementsHasTheirNodesOnEdges) {
+  const TubeSizes sizes{.radius = 5e-3,
+                        .length = 20e-3,
+                        .wall_thickness = 1e-3,
+                        .cells_around = 8,
+                        .cells_radial = 1,
+                        .cells_along = 4,
+                        .cells_through_wall = 1};
+  auto whole = tube(sizes);
+  add_edge_nodes(whole);
+  const auto part = submesh(whole, RegionKind::wall);
+  ASSERT_EQ(part.data.edges.size(), part.data.tetrahedra.size());
+  ASSERT_EQ(part.data.points.size(), part.nodes.size());
+  for (std::size_t e = 0; e < part.elements.size(); ++e)
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_EQ(part.nodes[static_cast<std::size_t>(part.data.edges[e][k])],
+                whole.edges[static_cast<std::size_t>(part.elements[e])][k]);
+  auto again = submesh(tube(sizes), RegionKind::wall).data;
+  add_edge_nodes(again);
+  ASSERT_EQ(again.points.size(), part.data.points.size());
+  const auto middle = [](const MeshData& data, std::int64_t node) {
+    return data.points[static_cast<std::size_t>(node)];
+  };
+  for (std::size_t f = 0; f < again.faces.size(); ++f)
+    for (std::size_t t = 0; t < again.faces[f].edges.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(norm(middle(again, again.faces[f].edges[t][k]) - middle(part.data, part.data.faces[f].edges[t][k])),
+                  0);
 }
 
 }  // namespace

@@ -28,6 +28,30 @@ ElementState<double> some_state(std::mt19937& random, double displacement = 0.05
   return e;
 }
 
+/// Another one at each point.
+PointPrestress<double> some_prestress(PrestressKind kind, std::mt19937& random) {
+  PointPrestress<double> prestress{};
+  prestress.kind = kind;
+  for (int q = 0; q < points; ++q) {
+    for (int n = 0; n < voigt_size; ++n) prestress.stress[q][n] = random_vector(random, 0.7)[0];
+    prestress.stretch[q] = identity<double>();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) prestress.stretch[q](i, j) += random_vector(random, 0.1)[0];
+  }
+  return prestress;
+}
+
+PointPrestress<D> as_dual(const PointPrestress<double>& prestress) {
+  PointPrestress<D> r{};
+  r.kind = prestress.kind;
+  for (int q = 0; q < points; ++q) {
+    for (int n = 0; n < voigt_size; ++n) r.stress[q][n] = D(prestress.stress[q][n]);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) r.stretch[q](i, j) = D(prestress.stretch[q](i, j));
+  }
+  return r;
+}
+
 /// Corners that belong to the gradients (the first at the origin) and the middles of the edges.
 std::array<Vec3<double>, nodes> positions(const fe::Gradients<double>& g) {
   Mat3<double> G;
@@ -68,10 +92,10 @@ struct Matrix {
 
 template <bool mixed, class L>
 Matrix assembled(const ElementState<double>& e, const L& law, const Body& body, const Coefficients& c,
-                 const Symmetric<double>* S0 = nullptr) {
+                 const PointPrestress<double>& prestress = {}) {
   Matrix m{};
   ElementVector<double> r;
-  tangent<mixed>(e, law, body, c, S0, r, [&](int a, const TangentRow<double>& row) {
+  tangent<mixed>(e, law, body, c, prestress, r, [&](int a, const TangentRow<double>& row) {
     for (int b = 0; b < nodes; ++b)
       for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) m.k[3 * a + i][3 * b + j] = row.motion[b](i, j);
@@ -108,18 +132,16 @@ struct ByEnergy {
 };
 
 template <bool mixed, class L>
-void check_tangent(const L& law, const Body& body, const Symmetric<double>* S0 = nullptr) {
+void check_tangent(const L& law, const Body& body, const PointPrestress<double>& prestress = {}) {
   const Coefficients c{.acceleration = 5.0, .displacement = 0.3, .constraint = 1.7};
   std::mt19937 random(7);
   for (int sample = 0; sample < 3; ++sample) {
     const auto e = some_state(random);
-    const Matrix m = assembled<mixed>(e, law, body, c, S0);
-    Symmetric<D> S0_dual{};
-    for (int n = 0; n < 6 && S0 != nullptr; ++n) S0_dual[n] = D((*S0)[n]);
+    const Matrix m = assembled<mixed>(e, law, body, c, prestress);
     double error = 0, size = 0, residual_error = 0;
     for (int n = 0; n < 34; ++n) {
       ElementVector<D> v;
-      residual<mixed>(shifted(e, c, n), ByEnergy<L>{law}, body, c, S0 == nullptr ? nullptr : &S0_dual, v);
+      residual<mixed>(shifted(e, c, n), ByEnergy<L>{law}, body, c, as_dual(prestress), v);
       for (int p = 0; p < 34; ++p) {
         const D& exact = p < 30 ? v.momentum[p / 3][p % 3] : v.constraint[p - 30];
         size = std::max(size, std::fabs(exact.d[0]));
@@ -142,9 +164,13 @@ TEST(QuadraticWallElement, TangentIsTheDerivativeOfTheResidual) {
     check_tangent<true>(wall::test::ExponentialFibre{}, body_with(v, infinite));
   }
   check_tangent<false>(wall::test::ExponentialFibre{}, body_with(VolumetricEnergy::miehe, 30.0));
-  const Symmetric<double> S0{{0.7, -0.4, 0.2, 0.5, -0.3, 0.6}};
-  check_tangent<true>(NeoHooke{2.0}, body_with(VolumetricEnergy::miehe, infinite), &S0);
-  check_tangent<false>(NeoHooke{2.0}, body_with(VolumetricEnergy::miehe, 30.0), &S0);
+  std::mt19937 random(3);
+  for (const auto kind : {PrestressKind::stress, PrestressKind::stretch}) {
+    const auto prestress = some_prestress(kind, random);
+    check_tangent<true>(NeoHooke{2.0}, body_with(VolumetricEnergy::miehe, infinite), prestress);
+    check_tangent<true>(wall::test::ExponentialFibre{}, body_with(VolumetricEnergy::simo_taylor, 30.0), prestress);
+    check_tangent<false>(NeoHooke{2.0}, body_with(VolumetricEnergy::miehe, 30.0), prestress);
+  }
 }
 
 TEST(QuadraticWallElement, TangentIsTheDerivativeWithFibresInsideAndOutsideTheSplit) {
@@ -203,17 +229,17 @@ TEST(QuadraticWallElement, UnderRigidMotionNoForceAndForcesTurnWithTheElement) {
   }
   for (double& p : still.pressure) p = 0;
   ElementVector<double> r;
-  residual<false>(still, NeoHooke{2.0}, body_with(VolumetricEnergy::simo_taylor, 1e2), {}, nullptr, r);
+  residual<false>(still, NeoHooke{2.0}, body_with(VolumetricEnergy::simo_taylor, 1e2), {}, {}, r);
   for (const auto& f : r.momentum) EXPECT_LT(norm(f), 1e-12);
-  residual<true>(still, NeoHooke{2.0}, body_with(VolumetricEnergy::miehe, infinite), {}, nullptr, r);
+  residual<true>(still, NeoHooke{2.0}, body_with(VolumetricEnergy::miehe, infinite), {}, {}, r);
   for (const auto& f : r.momentum) EXPECT_LT(norm(f), 1e-13);
   for (const double c : r.constraint) EXPECT_NEAR(c, 0, 1e-14);
 
   const wall::test::ExponentialFibre law;
   const auto body = body_with(VolumetricEnergy::miehe, 30.0);
   ElementVector<double> rotated;
-  residual<true>(e, law, body, {}, nullptr, r);
-  residual<true>(turned, law, body, {}, nullptr, rotated);
+  residual<true>(e, law, body, {}, {}, r);
+  residual<true>(turned, law, body, {}, {}, rotated);
   for (int a = 0; a < nodes; ++a) EXPECT_LT(norm(Q * r.momentum[a] - rotated.momentum[a]), 1e-12);
   for (int a = 0; a < 4; ++a) EXPECT_NEAR(r.constraint[a], rotated.constraint[a], 1e-13);
 }
@@ -227,8 +253,8 @@ TEST(QuadraticWallElement, ATranslationIsExactlyNoForce) {
   for (auto& u : still.displacement) u = {{0, 0, 0}};
   const auto body = body_with(VolumetricEnergy::quadratic, 30.0);
   ElementVector<double> r, at_rest;
-  residual<true>(e, NeoHooke{2.0}, body, {}, nullptr, r);
-  residual<true>(still, NeoHooke{2.0}, body, {}, nullptr, at_rest);
+  residual<true>(e, NeoHooke{2.0}, body, {}, {}, r);
+  residual<true>(still, NeoHooke{2.0}, body, {}, {}, at_rest);
   for (int a = 0; a < nodes; ++a)
     for (int i = 0; i < 3; ++i) EXPECT_EQ(r.momentum[a][i], at_rest.momentum[a][i]);
 }
@@ -258,14 +284,14 @@ TEST(QuadraticWallElement, HomogeneousDeformationGivesTheForcesOfTheLinearElemen
         EXPECT_NEAR(r.momentum[b][i], b < 4 ? 0.0 : edge, 1e-13);
       }
   };
-  residual<false>(e, law, body, {}, nullptr, r);
+  residual<false>(e, law, body, {}, {}, r);
   displacement_residual(linear, law, body, expected);
   compare();
-  residual<true>(e, law, body, {}, nullptr, r);
+  residual<true>(e, law, body, {}, {}, r);
   mixed_residual(linear, law, body, {}, expected);
   compare();
   for (int a = 0; a < 4; ++a) EXPECT_NEAR(r.constraint[a], expected.r[a][3], 1e-14);
-  const auto centre = at_centroid(e);
+  const auto centre = at_centroid(e, {});
   const auto sigma = mixed_cauchy_stress(centre, law), of_linear = mixed_cauchy_stress(linear, law);
   for (int n = 0; n < 6; ++n) EXPECT_NEAR(sigma[n], of_linear[n], 1e-12);
   for (int a = 0; a < 4; ++a) EXPECT_LT(norm(centre.displacement[a] - linear.displacement[a]), 1e-14);
@@ -277,7 +303,7 @@ TEST(QuadraticWallElement, InertiaIsTheConsistentMass) {
   for (double& p : e.pressure) p = 0;
   for (auto& a : e.acceleration) a = {{3.0, 0, 0}};
   ElementVector<double> r;
-  residual<true>(e, NeoHooke{2.0}, body_with(VolumetricEnergy::quadratic, infinite), {}, nullptr, r);
+  residual<true>(e, NeoHooke{2.0}, body_with(VolumetricEnergy::quadratic, infinite), {}, {}, r);
   double sum = 0;
   for (const auto& f : r.momentum) sum += f[0];
   EXPECT_NEAR(sum, 3.0 * 1.3 * e.reference.volume, 1e-14);
@@ -292,13 +318,15 @@ TEST(QuadraticWallElement, ForceIsTheDerivativeOfTheEnergy) {
   for (auto& a : e.acceleration) a = {{0, 0, 0}};
   const auto body = body_with(VolumetricEnergy::miehe, 20.0);
   const wall::test::ExponentialFibre law;
-  const Symmetric<double> S0{{0.7, -0.4, 0.2, 0.5, -0.3, 0.6}};
-  Symmetric<D> S0_dual{};
-  for (int n = 0; n < 6; ++n) S0_dual[n] = D(S0[n]);
-  ElementVector<double> r;
-  residual<false>(e, law, body, {}, &S0, r);
-  for (int n = 0; n < 30; ++n)
-    EXPECT_NEAR(r.momentum[n / 3][n % 3], strain_energy<false>(shifted(e, {}, n), law, body, &S0_dual).d[0], 1e-13);
+  for (const auto kind : {PrestressKind::none, PrestressKind::stress, PrestressKind::stretch}) {
+    const auto prestress = some_prestress(kind, random);
+    ElementVector<double> r;
+    residual<false>(e, law, body, {}, prestress, r);
+    for (int n = 0; n < 30; ++n) {
+      const D energy = strain_energy<false>(shifted(e, {.displacement = 1.0}, n), law, body, as_dual(prestress));
+      EXPECT_NEAR(r.momentum[n / 3][n % 3], energy.d[0], 1e-12);
+    }
+  }
 }
 
 /// Forces do not know in which frame the gradients are stored, nor to which of two equal states they refer.
@@ -328,14 +356,40 @@ TEST(QuadraticWallElement, FramesAndPrestretch) {
   const Mat3<double> F0{{{1.1, 0.15, -0.05}, {0.02, 0.93, 0.08}, {-0.06, 0.04, 1.04}}};
   set_prestretch(global_shape, F0);
   auto stretched = global, free = global;
-  stretched.reference = free.reference = global_shape.reference, stretched.axes = global_shape.axes;
+  free.reference = global_shape.reference;
   const auto x = positions(global.reference), x0 = positions(free.reference);
-  for (int a = 0; a < nodes; ++a) {
-    stretched.acceleration[a] = free.acceleration[a] = {{0, 0, 0}};
-    free.displacement[a] = global.displacement[a] + x[a] - x0[a];
-  }
-  expect_equal(assembled<true>(stretched, global_law, body, c), assembled<true>(free, global_law, body, c));
+  for (int a = 0; a < nodes; ++a) free.displacement[a] = global.displacement[a] + x[a] - x0[a];
+  PointPrestress<double> prestretch{};
+  prestretch.kind = PrestressKind::stretch;
+  for (Mat3<double>& of_point : prestretch.stretch) of_point = F0;
+  expect_equal(assembled<true>(stretched, global_law, body, c, prestretch), assembled<true>(free, global_law, body, c));
   EXPECT_NEAR(present_volume(stretched), present_volume(global), 1e-14);
+  EXPECT_NEAR(stress_free_volume(stretched, prestretch), free.reference.volume, 1e-14);
+}
+
+/// F of each point as its prestretch: at rest it then has the stress that the element has when it moves.
+TEST(QuadraticWallElement, PrestretchOfThePointsStandsForTheMotionThatMadeIt) {
+  std::mt19937 random(13);
+  const wall::test::ExponentialFibre law;
+  const auto moved = some_state(random);
+  PointPrestress<double> prestretch{};
+  prestretch.kind = PrestressKind::stretch;
+  double volume = 0;
+  for (int q = 0; q < points; ++q) {
+    const auto s = at_point(moved, fe::quadratic_four_points[static_cast<std::size_t>(q)]);
+    prestretch.stretch[q] = deformation_gradient(s);
+    volume += s.reference.volume / determinant(prestretch.stretch[q]);
+    auto still = moved;
+    for (auto& u : still.displacement) u = {};
+    const auto found = at_point(still, q, prestretch);
+    const auto sigma = mixed_cauchy_stress(found, law), expected = mixed_cauchy_stress(s, law);
+    for (int n = 0; n < voigt_size; ++n) EXPECT_NEAR(sigma[n], expected[n], 1e-13);
+  }
+  EXPECT_NEAR(stress_free_volume(moved, prestretch), volume, 1e-15);
+  const auto centre = at_centroid(moved, prestretch);
+  double mean = 0;
+  for (const auto& F0 : prestretch.stretch) mean += 0.25 * F0(0, 1);
+  EXPECT_NEAR(centre.axes(0, 1), mean, 1e-15);
 }
 
 TEST(QuadraticWallElement, InvertedElementGivesNaN) {
@@ -344,7 +398,7 @@ TEST(QuadraticWallElement, InvertedElementGivesNaN) {
   const auto x = positions(e.reference);
   for (int a = 0; a < nodes; ++a) e.displacement[a] = {{-2.0 * x[a][0], 0, 0}};
   ElementVector<double> r;
-  residual<true>(e, NeoHooke{2.0}, body_with(VolumetricEnergy::quadratic, 10.0), {}, nullptr, r);
+  residual<true>(e, NeoHooke{2.0}, body_with(VolumetricEnergy::quadratic, 10.0), {}, {}, r);
   EXPECT_TRUE(std::isnan(r.momentum[4][0]));
 }
 

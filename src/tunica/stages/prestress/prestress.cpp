@@ -24,6 +24,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
@@ -32,7 +33,6 @@
 #include "tunica/stages/prestress/flow_folder.hpp"
 #include "tunica/stages/prestress/steady_flow.hpp"
 #include "tunica/wall/parameters.hpp"
-#include "tunica/wall/surface.hpp"
 
 namespace tunica::stages {
 
@@ -122,6 +122,7 @@ class PrestressRun {
   /// What is left of the flow's forces once the pressure has its part [N], [local node][4].
   std::vector<double> forces_beside_pressure() const;
   void write_traction(const coupling::Problem& problem);
+  void set_corners_to_mean(std::vector<double>& traction) const;
   void follow(const coupling::PrestressRecord& record);
   void plot_history(const std::vector<coupling::PrestressRecord>& history);
   void write_prestress_file(const coupling::WallPrestress& prestress);
@@ -187,6 +188,7 @@ void PrestressRun::read() {
     if (case_.wall) case_.wall->prestress.reset();
     auto warnings = std::move(whole_.warnings);
     whole_ = artifacts::load_mesh(case_);
+    if (case_.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(whole_.data);
     whole_.warnings.insert(whole_.warnings.begin(), warnings.begin(), warnings.end());
     mesh_hash_ = artifacts::mesh_hash(whole_.data);
     lumen_part_ = mesh::submesh(whole_.data, RegionKind::lumen);
@@ -307,34 +309,39 @@ coupling::ProblemInput PrestressRun::wall_input() {
 
 std::vector<double> PrestressRun::forces_beside_pressure() const {
   std::vector<double> forces = local_forces_;
-  for (const auto& name : wall_interface_)
-    for (const auto& t : wall_.face(name).triangles) {
-      const auto& x = wall_.points;
-      const Vec3<double> corners[3] = {x[t[0]], x[t[1]], x[t[2]]};
-      wall::SurfaceVector<double> r{};
-      wall::add_pressure(
-          corners, (local_forces_[at(t[0]) + 3] + local_forces_[at(t[1]) + 3] + local_forces_[at(t[2]) + 3]) / 3.0, r);
-      for (int a = 0; a < 3; ++a)
-        for (std::size_t c = 0; c < 3; ++c) forces[at(t[static_cast<std::size_t>(a)]) + c] += r.r[a][c];
+  for (const auto& name : wall_interface_) {
+    const auto& face = wall_.face(name);
+    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+      const auto& t = face.triangles[k];
+      const double pressure =
+          (local_forces_[at(t[0]) + 3] + local_forces_[at(t[1]) + 3] + local_forces_[at(t[2]) + 3]) / 3.0;
+      // On a straight triangle a third of it acts on each corner, or on each node of an edge (quadratic_surface.hpp).
+      const Vec3<double> share = (pressure / 3.0) * mesh::area_vector(wall_.points, t);
+      for (const auto node : wall_.quadratic ? face.edges[k] : t)
+        for (int c = 0; c < 3; ++c) forces[at(node) + static_cast<std::size_t>(c)] += share[c];
     }
+  }
   wall_.halo.update(forces, 4);
   return forces;
 }
 
-// Force over area at a node, for the eye.
+// Force over area at a node, for the eye. Forces on corners of quadratic triangles are differences that say little:
+// they show the mean of the edges beside them.
 void PrestressRun::write_traction(const coupling::Problem& problem) {
   std::vector<double> area(static_cast<std::size_t>(wall_.nodes()), 0.0);
   for (const auto& face : wall_.faces) {
     if (std::find(wall_interface_.begin(), wall_interface_.end(), face.name) == wall_interface_.end()) continue;
-    for (const auto& t : face.triangles) {
-      const double third = norm(mesh::area_vector(wall_.points, t)) / 3.0;
-      for (const auto node : t) area[static_cast<std::size_t>(node)] += third;
+    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
+      const double third = norm(mesh::area_vector(wall_.points, face.triangles[k])) / 3.0;
+      for (const auto node : wall_.quadratic ? face.edges[k] : face.triangles[k])
+        area[static_cast<std::size_t>(node)] += third;
     }
   }
   wall_.halo.update(area, 1);
   std::vector<double> traction(local_forces_.size(), 0.0);
   for (std::size_t k = 0; k < traction.size(); ++k)
     if (area[k / 4] > 0) traction[k] = local_forces_[k] / area[k / 4];
+  if (wall_.quadratic) set_corners_to_mean(traction);
   const std::string unit = case_.output.units.stress;
   const distributed::NodalArray array{.name = fmt::format("traction [{}]", unit),
                                       .components = 3,
@@ -343,6 +350,27 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
                                       .factor = per_si(unit, config::dimension::pressure)};
   distributed::ResultsWriter writer(problem.mesh(), results_in("traction"));
   writer.write(0, 0.0, std::span(&array, 1), {});
+}
+
+// Mean of the edges of the interface that meet at a corner, [local node][4].
+void PrestressRun::set_corners_to_mean(std::vector<double>& traction) const {
+  std::vector<double> count(static_cast<std::size_t>(wall_.nodes()), 0.0);
+  for (const auto& name : wall_interface_) {
+    const auto& face = wall_.face(name);
+    for (std::size_t k = 0; k < face.triangles.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (const auto corner : {face.triangles[k][i], face.triangles[k][(i + 1) % 3]}) {
+          count[static_cast<std::size_t>(corner)] += 1;
+          for (std::size_t c = 0; c < 3; ++c) {
+            double& value = traction[at(corner) + c];
+            value = count[static_cast<std::size_t>(corner)] > 1 ? value : 0.0;
+            value += traction[at(face.edges[k][i]) + c];
+          }
+        }
+  }
+  for (std::size_t k = 0; k < traction.size(); ++k)
+    if (count[k / 4] > 0) traction[k] /= count[k / 4];
+  wall_.halo.update(traction, 4);
 }
 
 void PrestressRun::follow(const coupling::PrestressRecord& r) {
@@ -379,7 +407,7 @@ void PrestressRun::plot_history(const std::vector<coupling::PrestressRecord>& hi
 }
 
 void PrestressRun::write_prestress_file(const coupling::WallPrestress& prestress) {
-  const int n = wall::components(prestress.kind);
+  const int n = wall::components(prestress.kind) * coupling::prestress_points(wall_.quadratic);
   std::vector<std::int64_t> ids;
   std::vector<double> values;
   for (std::size_t r = 0; r < wall_.regions.size(); ++r) {

@@ -151,9 +151,10 @@ std::vector<double> forces_on_wall(const coupling::Problem& problem) {
   std::vector<double> forces(residual.size(), 0.0);
   for (const auto& [face, condition] : problem.input().boundary.conditions) {
     if (!std::holds_alternative<bc::NoSlip>(condition)) continue;
-    for (const auto& triangle : mesh.face(face).triangles)
-      for (const auto node : triangle)
-        for (std::size_t c = 0; c < 3; ++c) forces[coupling::at(node) + c] = -residual[coupling::at(node) + c];
+    for (const auto* cells : {&mesh.face(face).triangles, &mesh.face(face).edges})
+      for (const auto& nodes : *cells)
+        for (const auto node : nodes)
+          for (std::size_t c = 0; c < 3; ++c) forces[coupling::at(node) + c] = -residual[coupling::at(node) + c];
   }
   mesh.halo.update(forces, 4);
   return forces;
