@@ -7,6 +7,7 @@
 
 #include "tunica/artifacts/plausible_faces.hpp"
 #include "tunica/artifacts/prestress_file.hpp"
+#include "tunica/artifacts/resolution.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/coupling/wall_prestress.hpp"
 #include "tunica/files/hash.hpp"
@@ -197,6 +198,11 @@ CheckedMesh load_mesh(const case_file::Case& c) {
   // A mesh in the wrong unit makes every flow through it unusual: one warning is enough.
   if (!mesh::implausible_size(mesh.data, {}))
     for (const auto& odd : implausible_on_faces(c, mesh.data)) mesh.warnings.push_back(format(odd));
+  std::vector<Problem> known;  // have been thrown
+  auto named = c;
+  named.boundary = case_file::without_patterns(c.boundary, free_faces(c.meshes, names_of(faces_of(mesh.data))), known);
+  mesh.across = resolution(named, mesh.data);
+  if (const auto few = too_few_across(named, mesh.across)) mesh.warnings.push_back(format(*few));
   return mesh;
 }
 

@@ -11,6 +11,7 @@
 #include "tunica/bc/check.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
+#include "tunica/geometry/elements_across.hpp"
 #include "tunica/mesh/mesh_data.hpp"
 
 namespace tunica::artifacts {
@@ -19,7 +20,8 @@ namespace tunica::artifacts {
 struct CheckedMesh {
   mesh::MeshData data;
   std::vector<std::string> report;    ///< what the readers noticed, sizes and quality of the regions; for the log
-  std::vector<std::string> warnings;  ///< elements of poor shape
+  std::vector<std::string> warnings;  ///< elements of poor shape, too few across the lumen
+  std::vector<geometry::AcrossPart> across{};  ///< of a case with flow: elements across the parts of its lumen
 };
 
 /// Reads or generates the meshes of the case, joins them, adds the prestress that the wall has, checks the shapes of

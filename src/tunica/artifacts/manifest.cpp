@@ -106,6 +106,9 @@ Manifest::Manifest(const fs::path& folder, const ManifestHead& head, bool contin
 
 void Manifest::write(const ManifestProgress& p) {
   ordered_json regions = ordered_json::array(), runs = ordered_json::parse(earlier_runs_);
+  ordered_json across = ordered_json::array();
+  for (const auto& part : head_.across)
+    across.push_back({{"name", part.name}, {"least", part.least}, {"median", part.median}});
   for (const auto& [name, elements] : head_.regions) regions.push_back({{"name", name}, {"elements", elements}});
   const bool running = p.status == "running";
   runs.push_back({{"started", started_},
@@ -142,7 +145,8 @@ void Manifest::write(const ManifestProgress& p) {
                                   {{"hash", files::hex(head_.mesh_hash)},
                                    {"nodes", head_.nodes},
                                    {"elements", head_.elements},
-                                   {"regions", regions}}},
+                                   {"regions", regions},
+                                   {"elements_across", across}}},
                                  {"runs", runs}};
   files::write_atomically(file_, config::json_text(manifest));
 }

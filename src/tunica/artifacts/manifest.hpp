@@ -11,6 +11,7 @@
 #include "tunica/artifacts/inputs.hpp"
 #include "tunica/coupling/problem.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
+#include "tunica/geometry/elements_across.hpp"
 
 namespace tunica::artifacts {
 
@@ -30,6 +31,7 @@ struct ManifestHead {
   std::int64_t nodes = 0, elements = 0;
   std::vector<std::pair<std::string, std::int64_t>> regions;  ///< name, elements
   std::int64_t first_step = 0;                                ///< completed steps at the start
+  std::vector<geometry::AcrossPart> across{};                 ///< elements across the parts of the lumen
 };
 
 /// How far it came.

@@ -19,11 +19,22 @@ namespace tunica::case_file {
 
 struct Coarse {};
 struct Medium {};
+struct Fine {};
 struct Full {};
-using Size = std::variant<Coarse, Medium, Full, double>;  ///< a number: largest edge length [m]
-double edge_length(const Size& size);                     ///< m
-/// What follows from the largest edge: a coarse mesh is also coarser than the wall is thick.
-geometry::SizeSettings size_settings(double edge);
+/// Edges by the local diameter of the lumen.
+struct Across {
+  double count = 4;                  ///< elements across
+  double longest = 10e-3;            ///< edge [m]
+  std::optional<double> shortest{};  ///< edge [m]; none: 2 mm / count
+};
+using Size = std::variant<Coarse, Medium, Fine, Full, double, Across>;  ///< a number: largest edge length [m]
+/// How many elements a size puts across the lumen; none where it is an edge length.
+std::optional<Across> across(const Size& size);
+double edge_length(const Size& size);  ///< the largest one [m]
+/// What follows from the size: a coarse mesh is also coarser than the wall is thick.
+geometry::SizeSettings size_settings(const Size& size);
+/// The size in words, for reports.
+std::string describe(const Size& size);
 
 struct MeshCase {
   std::string title;

@@ -9,6 +9,8 @@
 #include "tunica/base/text.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/case/face_patterns.hpp"
+#include "tunica/case/mesh_settings.hpp"
+#include "tunica/geometry/elements_across.hpp"
 
 namespace tunica::case_file {
 
@@ -96,6 +98,16 @@ class Checker {
                               "a slip of the unit of `distal` or `capacitance`?"});
       }
     resistances();
+  }
+
+  void fineness() {
+    const auto asked = case_.mesh ? across(case_.mesh->size) : std::nullopt;
+    const double enough = enough_across(case_);
+    if (!asked || asked->count >= enough) return;
+    warnings.push_back({"mesh.size",
+                        fmt::format("{:g} elements across the lumen are asked for; flow on {} ones needs {:g}",
+                                    asked->count, case_.elements == Elements::linear ? "linear" : "quadratic", enough),
+                        remedy_across(case_)});
   }
 
  private:
@@ -254,6 +266,22 @@ class Checker {
 
 }  // namespace
 
+double enough_across(const Case& c) {
+  return c.elements == Elements::quadratic ? geometry::enough_quadratic : geometry::enough_linear;
+}
+
+std::string remedy_across(const Case& c) {
+  const bool quadratic = c.elements == Elements::quadratic;
+  // A mesh of other programs is made finer there, one of `tunica mesh` in its file.
+  const std::string finer =
+      c.meshes.tube ? "more `cells_around` and `cells_radial`"
+                    : fmt::format("a finer mesh there (`{}size: {{elements_across: {:g}}}` of `tunica mesh`{})",
+                                  c.mesh ? "mesh." : "", enough_across(c), quadratic ? "" : " and `boundary_layers`");
+  // Prestress is found and taken on linear elements alone.
+  if (quadratic || c.finds_prestress() || c.prestress_file()) return finer;
+  return fmt::format("`elements: quadratic`, which need {:g}, or {}", geometry::enough_quadratic, finer);
+}
+
 double largest_size(const bc::WaveformInput& input) {
   double largest = 0;
   if (const auto* constant = std::get_if<double>(&input.source)) largest = std::abs(*constant);
@@ -268,6 +296,7 @@ std::vector<Problem> implausible_values(const Case& c) {
   checker.tables();
   if (c.solves_fluid()) checker.sign_of_inflow();
   if (!c.outlets) checker.outlets();
+  if (c.solves_fluid()) checker.fineness();
   return std::move(checker.warnings);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <tuple>
 
 namespace tunica::geometry {
 
@@ -19,6 +20,28 @@ std::vector<std::vector<std::int64_t>> neighbours(const TriangleSurface& surface
     result[edge.b].push_back(edge.a);
   }
   return result;
+}
+
+/// By the diameter of the lumen. Edges inside come out longer than wanted, by this factor in tubes (docs/meshing.md).
+double size_across(double diameter, const SizeSettings& settings) {
+  constexpr double longer = 1.25;
+  return std::clamp(diameter / (longer * *settings.across), settings.smallest_across, settings.largest);
+}
+
+/// Ball that touches the surface of `lumen` at p, where its normal is n, and a wall that faces p: its diameter and the
+/// triangle there. A large ball shrinks until no such wall is within it.
+std::pair<double, std::int64_t> largest_ball(const TriangleTree& lumen, const Point& p, const Vec3<double>& n,
+                                             double reach) {
+  constexpr double facing = 0.7, enough = 0.98;
+  const auto faces = [&](const SurfacePoint& q) { return dot(lumen.normal(q.triangle), n) < -facing; };
+  double radius = 0.5 * reach;
+  for (std::int64_t touched = -1;;) {
+    const auto q = lumen.nearest_if(p - radius * n, enough * radius, faces);
+    if (!q) return {touched < 0 ? infinity : 2 * radius, touched};
+    touched = q.triangle;
+    const auto d = q.place - p;
+    radius = dot(d, d) / (-2 * dot(d, n));  // through p and q; smaller, since q was inside
+  }
 }
 
 }  // namespace
@@ -55,6 +78,16 @@ Thickness wall_thickness(const TriangleTree& lumen, const TriangleTree* outer, d
     thickness.flap[p] = 0;
   }
   return thickness;
+}
+
+LumenDiameter lumen_diameter(const TriangleTree& lumen, double reach) {
+  const auto& points = lumen.surface().points;
+  const auto normals = point_normals(lumen.surface());
+  LumenDiameter diameter{std::vector<double>(points.size(), infinity), std::vector<std::int64_t>(points.size(), -1)};
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (norm(normals[p]) > 0)
+      std::tie(diameter.value[p], diameter.facing[p]) = largest_ball(lumen, points[p], normals[p], reach);
+  return diameter;
 }
 
 std::vector<double> curvature_radius(const TriangleSurface& surface) {
@@ -96,13 +129,22 @@ void limit_gradation(const TriangleSurface& surface, double gradation, std::vect
 }
 
 std::vector<double> surface_sizes(const TriangleSurface& surface, std::span<const double> thickness,
-                                  const SizeSettings& settings) {
+                                  std::span<const double> diameter, const SizeSettings& settings) {
   auto sizes = curvature_radius(surface);
   for (std::size_t p = 0; p < sizes.size(); ++p) {
     sizes[p] *= settings.per_radius;
     if (!thickness.empty()) sizes[p] = std::min(sizes[p], settings.per_thickness * thickness[p]);
     sizes[p] = std::clamp(sizes[p], settings.smallest, settings.largest);
+    if (settings.across && !diameter.empty()) sizes[p] = std::min(sizes[p], size_across(diameter[p], settings));
   }
+  limit_gradation(surface, settings.gradation, sizes);
+  return sizes;
+}
+
+std::vector<double> lumen_sizes(const TriangleSurface& surface, std::span<const double> diameter,
+                                const SizeSettings& settings) {
+  std::vector<double> sizes;
+  for (const double d : diameter) sizes.push_back(size_across(d, settings));
   limit_gradation(surface, settings.gradation, sizes);
   return sizes;
 }

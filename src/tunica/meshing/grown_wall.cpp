@@ -21,6 +21,7 @@ std::vector<WallRegion> regions_at(const geometry::TriangleSurface& lumen, const
   coarse.sizes.largest = 5e-3;
   coarse.sizes.per_radius = 0.6;
   coarse.sizes.per_thickness = 1.5;
+  coarse.sizes.across.reset();
   coarse.log = [](const std::string&) {};
   const auto prepared = patient_complex(surfaces, coarse);
   const auto openings = with_inlet_first(prepared.openings, roles);

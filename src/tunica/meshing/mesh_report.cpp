@@ -52,6 +52,14 @@ double volume(const mesh::MeshData& data, const mesh::RegionData& region) {
   return sum;
 }
 
+nlohmann::json to_json(const geometry::AcrossPart& part) {
+  return {{"name", part.name},
+          {"least", part.least},
+          {"median", part.median},
+          {"diameter_mm", part.diameter * 1e3},
+          {"place_mm", {part.place[0] * 1e3, part.place[1] * 1e3, part.place[2] * 1e3}}};
+}
+
 /// The whole boundary of the regions of one kind.
 std::vector<Triangle> boundary(const mesh::MeshData& data, mesh::RegionKind kind) {
   std::vector<Triangle> triangles;
@@ -212,6 +220,11 @@ nlohmann::json mesh_report(const ReportInput& input) {
                                              static_cast<double>(std::max<geometry::Index>(1, layers.surface_nodes));
   report["fidelity"] = to_json(input.fidelity, data);
   report["thickness_mm"] = to_json(input.thickness);
+  report["size"] = input.size;
+  report["elements_across"] = nlohmann::json::array();
+  for (const auto& part : input.across) report["elements_across"].push_back(to_json(part));
+  const auto thin = geometry::too_few_across(input.across, geometry::enough_quadratic);
+  report["too_few_across"] = thin ? *thin : "";
   report["tears"] = nlohmann::json::array();
   for (const auto& tear : input.tears)
     report["tears"].push_back({{"area_mm2", tear.area * 1e6},
@@ -244,6 +257,12 @@ std::string report_text(const nlohmann::json& r) {
   for (const auto& face : r["faces"])
     text += fmt::format("{:<32}{:>10}{:>14.1f}\n", face["name"].get<std::string>(),
                         face["triangles"].get<geometry::Index>(), face["area_mm2"].get<double>());
+  text += fmt::format("\nsize: {}\n{:<32}{:>8}{:>8}{:>14}\n", r["size"].get<std::string>(), "elements across", "least",
+                      "median", "diameter mm");
+  for (const auto& part : r["elements_across"])
+    text += fmt::format("{:<32}{:>8.1f}{:>8.1f}{:>14.1f}\n", part["name"].get<std::string>(),
+                        part["least"].get<double>(), part["median"].get<double>(), part["diameter_mm"].get<double>());
+  if (const auto thin = r["too_few_across"].get<std::string>(); !thin.empty()) text += "warning: " + thin + "\n";
   const auto& lumen = r["lumen_boundary"];
   text +=
       fmt::format("\nlumen boundary: {} part(s), genus {}, {}\n", lumen["parts"].get<geometry::Index>(),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tunica/geometry/elements_across.hpp"
 #include "tunica/mesh/mesh_data.hpp"
 #include "tunica/meshing/fidelity.hpp"
 #include "tunica/meshing/tears.hpp"
@@ -46,6 +47,8 @@ struct ReportInput {
   const std::vector<Tear>& tears;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase
   double peak_memory = 0;                               ///< byte
+  std::string size{};                                   ///< what was asked for, in words
+  std::vector<geometry::AcrossPart> across{};           ///< `resolution`
 };
 nlohmann::json mesh_report(const ReportInput& input);
 /// The same for the terminal.

@@ -170,8 +170,15 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
   if (outer) sheets.push_back({{geometry::TriangleTree(*outer), geometry::find_creases(*outer), {}}, {}, {}});
   auto thickness = geometry::wall_thickness(sheets[0].original.tree, outer ? &sheets[1].original.tree : nullptr,
                                             options.thickness_reach);
-  sheets[0].original.sizes = geometry::surface_sizes(lumen, thickness.value, options.sizes);
-  if (outer) sheets[1].original.sizes = geometry::surface_sizes(*outer, {}, options.sizes);
+  std::optional<geometry::SizeField> inside;
+  std::vector<double> diameter;
+  if (options.sizes.across) {
+    diameter = geometry::lumen_diameter(sheets[0].original.tree, options.diameter_reach).value;
+    inside.emplace(lumen, geometry::lumen_sizes(lumen, diameter, options.sizes), options.sizes.gradation,
+                   options.sizes.largest);
+  }
+  sheets[0].original.sizes = geometry::surface_sizes(lumen, thickness.value, diameter, options.sizes);
+  if (outer) sheets[1].original.sizes = geometry::surface_sizes(*outer, {}, {}, options.sizes);
   agree_on_sizes(sheets, options.sizes);
   remesh_together(sheets, options.accuracy, options.sizes.gradation, options.log);
   for (std::size_t s = 0; s < sheets.size(); ++s)
@@ -185,7 +192,8 @@ PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexO
   std::optional<geometry::TriangleTree> outer_tree;
   if (outer) outer_tree = std::move(sheets[1].original.tree);
   return {std::move(complex),    std::move(sizes),     std::move(sheets[0].original.tree),
-          std::move(outer_tree), std::move(thickness), openings};
+          std::move(outer_tree), std::move(thickness), openings,
+          std::move(inside)};
 }
 
 }  // namespace tunica::meshing

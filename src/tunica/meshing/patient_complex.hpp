@@ -27,6 +27,7 @@ struct ComplexOptions {
   int lumen_parts = 1;            ///< connected parts of the lumen surface: 2 for true and false lumen without a tear
   double clearance = 0.1e-3;      ///< smallest allowed distance between lumen and outer surface [m]
   double thickness_reach = 6e-3;  ///< walls thicker than this [m] do not limit the edge length
+  double diameter_reach = 0.1;    ///< nor do wider vessels [m]
   Log log = [](const std::string&) {};  ///< gets what was mended, done and measured, one line each
   std::filesystem::path spots;          ///< .vtp file for places of problems; empty: none is written
 };
@@ -38,6 +39,7 @@ struct PreparedSurfaces {
   std::optional<geometry::TriangleTree> outer;  ///< the same of the outer one
   geometry::Thickness thickness;                ///< of wall and flap, at the points of `lumen`
   std::vector<geometry::Opening> openings;      ///< their loops refer to `lumen` and `outer`
+  std::optional<geometry::SizeField> inside{};  ///< edge length in the lumen, where its diameter counts
 };
 
 /// Mends both surfaces, flattens their rims, remeshes them and closes them with plane caps and rings. Patches:

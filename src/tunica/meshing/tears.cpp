@@ -49,10 +49,11 @@ std::vector<Tear> find_tears(const geometry::Tetrahedra& mesh, const std::vector
     if (!open[start]) continue;
     std::vector<geometry::Index> stack = {start};
     open[start] = false;
-    Tear tear{{{0, 0, 0}}, {{0, 0, 0}}, 0};
+    Tear tear{{{0, 0, 0}}, {{0, 0, 0}}, 0, {}};
     while (!stack.empty()) {
       const geometry::Index e = stack.back();
       stack.pop_back();
+      tear.elements.push_back(e);
       const auto piece = piece_of(mesh, side, mesh.elements[e]);
       const double area = norm(piece.area);
       tear.centre = tear.centre + area * piece.middle;

@@ -11,6 +11,7 @@ struct Tear {
   geometry::Point centre;  ///< m
   Vec3<double> normal;     ///< unit, towards the true lumen
   double area = 0;         ///< m^2
+  std::vector<geometry::Index> elements{};  ///< that it cuts
 };
 
 /// `side`: of each lumen node, > 0 in the true lumen (`WallRegions`). A tear is a connected piece of the surface inside

@@ -72,7 +72,7 @@ struct Hull {
   std::vector<std::int64_t> points;
 };
 
-void fill_in(Hull& hull, const SurfaceComplex& complex, Label label, const std::vector<double>& sizes, double factor) {
+void fill_in(Hull& hull, const SurfaceComplex& complex, Label label, const std::vector<double>& sizes) {
   std::vector<int> number(complex.points.size(), -1);
   std::vector<std::array<int, 3>> facets;
   std::vector<int> markers;
@@ -96,7 +96,7 @@ void fill_in(Hull& hull, const SurfaceComplex& complex, Label label, const std::
   in.pointmtrlist = new double[hull.points.size()];
   for (std::size_t i = 0; i < hull.points.size(); ++i) {
     for (int d = 0; d < 3; ++d) in.pointlist[3 * i + d] = to_tetgen * complex.points[hull.points[i]][d];
-    in.pointmtrlist[i] = to_tetgen * factor * sizes[hull.points[i]];
+    in.pointmtrlist[i] = to_tetgen * sizes[hull.points[i]];
   }
   in.numberoffacets = static_cast<int>(facets.size());
   in.facetlist = new tetgenio::facet[facets.size()];
@@ -123,11 +123,11 @@ const char* reason(int code) {
   }
 }
 
-/// Adds the tetrahedra inside the hull of a label to `mesh`, whose first points are those of the complex.
-void fill(const SurfaceComplex& complex, Label label, const std::vector<double>& sizes, double factor,
-          geometry::Tetrahedra& mesh) {
+/// Adds the tetrahedra inside the hull of a label to `mesh`, whose first points are those of the complex. `sizes`: edge
+/// length inside [m], at each of these.
+void fill(const SurfaceComplex& complex, Label label, const std::vector<double>& sizes, geometry::Tetrahedra& mesh) {
   Hull hull;
-  fill_in(hull, complex, label, sizes, factor);
+  fill_in(hull, complex, label, sizes);
   tetgenio output;
   // p: a closed complex; Y: its triangles stay whole; A: no merging; q: ratio and angle; m: sizes; Q: silent.
   char switches[] = "pYQq1.4/10m";
@@ -173,15 +173,21 @@ std::vector<bool> on_rims(const SurfaceComplex& complex) {
 geometry::Tetrahedra tetrahedralise(const SurfaceComplex& complex,
                                     const std::function<double(const geometry::Point&)>& size,
                                     const FillSettings& settings) {
-  std::vector<double> sizes;
-  for (const auto& p : complex.points) sizes.push_back(size(p));
+  std::vector<double> in_lumen, in_wall;
+  for (const auto& p : complex.points) {
+    const double at_surface = size(p);
+    // Never finer than the triangles around it, which stay.
+    in_lumen.push_back(settings.lumen_size ? std::max(at_surface, settings.lumen_size(p))
+                                           : settings.in_lumen * at_surface);
+    in_wall.push_back(settings.in_wall * at_surface);
+  }
   geometry::Tetrahedra mesh;
   mesh.points = complex.points;
   mesh.on_curve = on_rims(complex);
-  fill(complex, Label::lumen, sizes, settings.in_lumen, mesh);
+  fill(complex, Label::lumen, in_lumen, mesh);
   const auto has_wall = [](const Patch& patch) { return bounds(patch, Label::wall); };
   if (std::any_of(complex.patches.begin(), complex.patches.end(), has_wall))
-    fill(complex, Label::wall, sizes, settings.in_wall, mesh);
+    fill(complex, Label::wall, in_wall, mesh);
   mesh.on_curve.resize(mesh.points.size(), false);
   return mesh;
 }

@@ -11,6 +11,8 @@ namespace tunica::meshing {
 struct FillSettings {
   double in_lumen = 1.0;  ///< edge length inside over that of the surfaces around
   double in_wall = 2.0;   ///< hardly any node is added inside the wall: its surfaces are about one edge apart
+  /// Edge length [m] inside the lumen near a point of its surface, in place of `in_lumen`; none when empty.
+  std::function<double(const geometry::Point&)> lumen_size{};
 };
 
 /// Fills lumen and wall, each on its own; they share the triangles of `complex`, which all become faces of tetrahedra.

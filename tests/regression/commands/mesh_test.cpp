@@ -57,9 +57,15 @@ TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
   fs::copy_file(example / "inflow.csv", folder_ / "inflow.csv");
   ASSERT_EQ(tunica("check case.yaml"), 0) << printed();
   EXPECT_NE(printed().find("1/7 mesh       would be done: never done"), std::string::npos) << printed();
-  EXPECT_EQ(printed().find("warning"), std::string::npos) << printed();
+  // It is coarse, and says so.
+  const auto warning = printed().find("warning");
+  ASSERT_NE(warning, std::string::npos) << printed();
+  EXPECT_EQ(printed().find("mesh.size: 2.5 elements across the lumen are asked for", warning), warning + 9) << printed();
+  EXPECT_EQ(printed().find("warning", warning + 1), std::string::npos) << printed();
   ASSERT_EQ(tunica("run case.yaml --until fibres"), 0) << printed();
   EXPECT_NE(printed().find("genus 1, manifold"), std::string::npos) << printed();
+  EXPECT_NE(printed().find("size: 2.5 elements across the lumen: `coarse` is for trying things"), std::string::npos)
+      << printed();
   EXPECT_NE(printed().find("inlet: lumen_inlet, wall_inlet"), std::string::npos) << printed();
   EXPECT_EQ(tunica("mesh out/mesh/mesh.yaml"), 2) << "a mesh is there";
 

@@ -33,6 +33,26 @@ TEST(Plausible, FlowInItsOpening) {
   expect_one(warnings("20 mm", "{flow: 0.005 ml/s}"), "is 4.");
 }
 
+TEST(Plausible, ElementsAcrossTheLumen) {
+  const auto load = [](const std::string& cells, const std::string& elements) {
+    return load_mesh(case_file::parse_case(
+        "analysis: flow\nmeshes: {tube: {radius: 5 mm, length: 3 cm, " + cells + "}}\nelements: " + elements +
+            "\nfluid: {}\nboundary: {lumen_inlet: {flow: 50 ml/s}, lumen_outlet: "
+            "{pressure: 0 Pa}, \"lumen_*\": no_slip}\ntime: {step: 1 ms, steps: 1}\n",
+        "case.yaml"));
+  };
+  // Two cells in the core and two beside it.
+  const std::string few = "cells_around: 8, cells_radial: 1, cells_along: 12";
+  const auto coarse = load(few, "linear");
+  expect_one(coarse.warnings, "fewer elements across than the 10 that flow needs: l");
+  expect_one(coarse.warnings, "`elements: quadratic`, which need 4, or more `cells_around` and `cells_radial`");
+  ASSERT_EQ(coarse.across.size(), 3u);
+  for (const auto& part : coarse.across) EXPECT_NEAR(part.median, 4, 0.8) << part.name;
+  const std::string more = "cells_around: 8, cells_radial: 3, cells_along: 12";
+  expect_one(load(more, "linear").warnings, "than the 10 that flow needs");
+  EXPECT_TRUE(load(more, "quadratic").warnings.empty());
+}
+
 TEST(Plausible, VelocityOutOfAnInlet) {
   EXPECT_TRUE(warnings("5 mm", "{velocity: {value: \"[0, 0, 1] m/s\"}}").empty());
   expect_one(warnings("5 mm", "{velocity: {value: \"[0, 0, -1] m/s\"}}"), "ml/s out of the vessel on average");

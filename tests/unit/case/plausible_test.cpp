@@ -57,6 +57,27 @@ TEST_F(Plausible, FlowOfATable) {
   expect_one(warnings(table("ml/s")), "reaches 0.0004 ml/s", "0.0004 m^3/s");
 }
 
+TEST_F(Plausible, FinenessOfAMeshToBeMade) {
+  const auto found = [&](const std::string& size, const std::string& more) {
+    std::ofstream(folder_.path() / "case.yaml")
+        << "analysis: fsi\nmesh: {geometry: {parametric: {}}, size: " << size << "}\n"
+        << more
+        << "fluid: {}\nwall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: "
+           "0.45}}}\n"
+           "boundary: {lumen_inlet: {flow: 20 ml/s}, \"lumen_*\": {resistance: 1e8 Pa s/m^3}, \"wall_*\": fixed}\n"
+           "time: {step: 1 ms, steps: 2}\n";
+    return read_case(folder_.path() / "case.yaml").warnings;
+  };
+  const std::string quadratic = "elements: quadratic\n";
+  EXPECT_TRUE(found("medium", quadratic).empty());
+  EXPECT_TRUE(found("{edge: 3 mm}", quadratic).empty());
+  EXPECT_TRUE(found("{elements_across: 10}", "").empty());
+  expect_one(found("coarse", quadratic), "2.5 elements across the lumen are asked for; flow on quadratic ones needs 4",
+             "mesh.size: {elements_across: 4}");
+  expect_one(found("medium", ""), "4 elements across the lumen are asked for; flow on linear ones needs 10",
+             "`elements: quadratic`");
+}
+
 TEST_F(Plausible, PressureOfATable) {
   write_wave("q.csv", 8000, 16000, 0.8);
   const char* kilopascals = "{pressure: {table: {file: q.csv, time_unit: s, unit: kPa}}}";

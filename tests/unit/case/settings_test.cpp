@@ -104,20 +104,54 @@ TEST(MaterialCase, SaysWhatIsNoTest) {
 
 TEST(MeshCase, FinerMeshesAreFinerEverywhere) {
   double last = 1;
-  for (const char* name : {"coarse", "medium", "full", "{edge: 1.1 mm}"}) {
+  for (const char* name : {"{edge: 7 mm}", "{edge: 3.2 mm}", "full", "{edge: 1.1 mm}"}) {
     const auto c =
         config::parse_text(MeshCase::schema(), std::string("geometry: {parametric: {}}\nsize: ") + name).value;
     const double edge = edge_length(c.size);
     EXPECT_LT(edge, last) << name;
     last = edge;
-    const auto sizes = size_settings(edge), finer = size_settings(0.8 * edge);
+    const auto sizes = size_settings(c.size), finer = size_settings(0.8 * edge);
     EXPECT_EQ(sizes.largest, edge);
+    EXPECT_FALSE(sizes.across);
     EXPECT_LT(sizes.smallest, edge);
     EXPECT_LE(finer.smallest, sizes.smallest);
     EXPECT_LE(finer.per_radius, sizes.per_radius);
     EXPECT_LE(finer.per_thickness, sizes.per_thickness);
   }
   EXPECT_NEAR(last, 1.1e-3, 1e-18);
+}
+
+TEST(MeshCase, NamesAreElementsAcross) {
+  const auto size = [](const std::string& text) {
+    return config::parse_text(MeshCase::schema(), "geometry: {parametric: {}}\n" + text).value.size;
+  };
+  EXPECT_EQ(across(size(""))->count, 4);
+  EXPECT_EQ(across(size("size: coarse"))->count, 2.5);
+  EXPECT_EQ(across(size("size: medium"))->count, 4);
+  EXPECT_EQ(across(size("size: fine"))->count, 6);
+  EXPECT_FALSE(across(size("size: full")));
+  EXPECT_FALSE(across(size("size: {edge: 2 mm}")));
+  EXPECT_EQ(across(size("size: {elements_across: 10}"))->count, 10);
+  EXPECT_NE(describe(size("size: coarse")).find("for trying things"), std::string::npos);
+  EXPECT_EQ(describe(size("size: {edge: 2 mm}")), "edges of up to 2 mm, however narrow the lumen is");
+
+  const auto bounded =
+      size_settings(size("size: {elements_across: {count: 5, longest_edge: 6 mm, shortest_edge: 0.4 mm}}"));
+  EXPECT_EQ(bounded.across, 5);
+  EXPECT_DOUBLE_EQ(bounded.largest, 6e-3);
+  EXPECT_DOUBLE_EQ(bounded.smallest_across, 0.4e-3);
+  double last = 1;
+  for (const char* name : {"coarse", "medium", "fine", "{elements_across: 10}"}) {
+    const auto settings = size_settings(size(std::string("size: ") + name));
+    EXPECT_LT(settings.smallest_across, last) << name;
+    EXPECT_NEAR(settings.smallest_across * *settings.across, 2e-3, 1e-12) << name;
+    last = settings.smallest_across;
+  }
+  expect_refused<MeshCase>(
+      "geometry: {parametric: {}}\n",
+      {{"size: {elements_across: {count: 4, longest_edge: 1 mm, shortest_edge: 2 mm}}", "exchange"},
+       {"size: {elements_across: 0.5}", "elements_across"},
+       {"size: {edge: 2 mm, elements_across: 4}", "size"}});
 }
 
 // --- tunica fibres --------------------------------------------------------------------------------------------------

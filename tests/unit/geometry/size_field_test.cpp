@@ -67,7 +67,7 @@ TEST(SurfaceSizes, BoundedAndGraded) {
   SizeSettings settings;
   settings.largest = 1.5e-3;
   settings.smallest = 0.3e-3;
-  const auto sizes = surface_sizes(surface, thickness, settings);
+  const auto sizes = surface_sizes(surface, thickness, {}, settings);
   EXPECT_DOUBLE_EQ(sizes[0], 0.3e-3);
   EXPECT_DOUBLE_EQ(sizes[25 * 60], 1.5e-3);
   for (const auto& e : edges(surface))

@@ -135,8 +135,8 @@ void expect_frames(const case_file::Size& size) {
   expect_tears_found(graph);
 }
 
-TEST(DissectionFrames, Coarse) { expect_frames(case_file::Coarse{}); }
-TEST(DissectionFrames, Medium) { expect_frames(case_file::Medium{}); }
+TEST(DissectionFrames, Coarse) { expect_frames(7 * mm); }
+TEST(DissectionFrames, Medium) { expect_frames(3.2 * mm); }
 
 }  // namespace
 }  // namespace tunica::frames

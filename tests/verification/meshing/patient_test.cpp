@@ -77,7 +77,7 @@ TEST_F(Patient, MeshKeepsVolumesShapeAndTopology) {
                                                                .metres_per_unit = 1e-3,
                                                                .roles = {},
                                                                .wall = {}});
-  mesh_case.size = case_file::Medium{};
+  mesh_case.size = 3.2e-3;
   const auto made = make_mesh(mesh_case, [](const std::string& line) { fmt::print("{}\n", line); });
   fmt::print("{}\n", made.report_text);
   const auto report = nlohmann::json::parse(made.report_json);

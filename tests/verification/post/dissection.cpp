@@ -22,7 +22,7 @@ void make_mesh(const test::SharedFolder& folder) {
   parallel::on_root(MPI_COMM_WORLD, [&] {
     case_file::MeshCase c;
     c.geometry = meshing::Geometry(config::parse_text(geometry::ParametricDissection::schema(), "{}").value);
-    c.size = case_file::Coarse{};
+    c.size = 7e-3;
     c.output = folder.path() / "mesh";
     stages::mesh_to_files(c, false, [](const std::string&) {});
   });

@@ -21,6 +21,7 @@
 #include "tunica/meshing/layers.hpp"
 #include "tunica/meshing/mesh_report.hpp"
 #include "tunica/meshing/projection.hpp"
+#include "tunica/meshing/resolution.hpp"
 #include "tunica/meshing/tetrahedralise.hpp"
 #include "tunica/meshing/wall_regions.hpp"
 #include "tunica/stages/meshing/mesh_page.hpp"
@@ -29,10 +30,12 @@ namespace tunica::stages {
 
 namespace {
 
-/// A coarse mesh saves elements where the lumen is wide.
-meshing::FillSettings fill_settings(double edge) {
+meshing::FillSettings fill_settings(const case_file::Size& size, const meshing::PreparedSurfaces& prepared) {
   meshing::FillSettings settings;
-  settings.in_lumen = std::clamp(1 + 0.25 * (edge / geometry::mm - 2), 1.0, 2.5);
+  if (prepared.inside)
+    settings.lumen_size = *prepared.inside;
+  else  // a coarse mesh saves elements where the lumen is wide
+    settings.in_lumen = std::clamp(1 + 0.25 * (case_file::edge_length(size) / geometry::mm - 2), 1.0, 2.5);
   return settings;
 }
 
@@ -47,8 +50,7 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   files::Phases phases(say);
   const auto tell = [&](const std::string& state) { phases.tell(state); };
   meshing::ComplexOptions options;
-  const double edge = case_file::edge_length(mesh_case.size);
-  options.sizes = case_file::size_settings(edge);
+  options.sizes = case_file::size_settings(mesh_case.size);
   // Improving shapes takes a little of the 0.5 mm that are allowed in the end.
   options.accuracy.absolute = 0.45e-3;
   options.log = tell;
@@ -61,7 +63,8 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   const auto openings = meshing::with_inlet_first(prepared.openings, geometry.roles);
 
   phases.begin("tetrahedra");
-  geometry::Tetrahedra mesh = meshing::tetrahedralise(prepared.complex, prepared.sizes, fill_settings(edge));
+  geometry::Tetrahedra mesh =
+      meshing::tetrahedralise(prepared.complex, prepared.sizes, fill_settings(mesh_case.size, prepared));
   tell(fmt::format("{} elements", mesh.elements.size()));
   phases.begin("shapes");
   const auto project = meshing::projection(prepared);
@@ -87,9 +90,10 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);
   const auto layers = find_layers(mesh, faces);
   const auto tears = meshing::find_tears(mesh, regions.side);
+  const auto across = meshing::resolution(mesh, openings, faces, regions, tears);
   phases.end();
-  const auto report = meshing::mesh_report(
-      {data, layers, fidelity, prepared.thickness, tears, phases.seconds, artifacts::peak_memory()});
+  const auto report = meshing::mesh_report({data, layers, fidelity, prepared.thickness, tears, phases.seconds,
+                                            artifacts::peak_memory(), case_file::describe(mesh_case.size), across});
   return {std::move(data), config::json_text(report), meshing::report_text(report),
           mesh_page({mesh_case.title, mesh, regions, tears, prepared, report})};
 }

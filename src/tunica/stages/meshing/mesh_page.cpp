@@ -229,6 +229,18 @@ std::string tables(const json& r) {
   for (const auto& face : r["faces"])
     text += drawing::page::row({drawing::page::escaped(face["name"].get<std::string>()),
                                 std::to_string(face["triangles"].get<geometry::Index>()), number(face["area_mm2"], 1)});
+  text +=
+      "</table>\n<h2>Elements across</h2>\n<p>Size asked for: " + drawing::page::escaped(r["size"].get<std::string>()) +
+      ".</p>\n";
+  if (const auto thin = r["too_few_across"].get<std::string>(); !thin.empty())
+    text += "<p><b>Warning:</b> " + drawing::page::escaped(thin) + "</p>\n";
+  text += "<table>\n" +
+          drawing::page::row({"part of the lumen", "least", "median", "diameter there [mm]", "place [mm]"}, "th");
+  for (const auto& part : r["elements_across"])
+    text += drawing::page::row({drawing::page::escaped(part["name"].get<std::string>()), number(part["least"], 1),
+                                number(part["median"], 1), number(part["diameter_mm"], 1),
+                                fmt::format("{:.1f}, {:.1f}, {:.1f}", part["place_mm"][0].get<double>(),
+                                            part["place_mm"][1].get<double>(), part["place_mm"][2].get<double>())});
   text += "</table>\n<h2>Tears</h2>\n<table>\n" + drawing::page::row({"tear", "area [mm²]", "centre [mm]"}, "th");
   int count = 0;
   for (const auto& tear : r["tears"])

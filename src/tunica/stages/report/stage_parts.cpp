@@ -48,6 +48,17 @@ std::string settings_table(const Results& r) {
          drawing::page::table({"key", "value"}, rows) + "</details>\n";
 }
 
+/// Elements across the parts of the lumen of the run.
+std::string across_table(const json& parts) {
+  if (!parts.is_array() || parts.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& part : parts)
+    rows.push_back(
+        {drawing::page::escaped(part.value("name", "")), figure(at(part, "least"), 3), figure(at(part, "median"), 3)});
+  return "<p>Elements across the lumen; flow needs 4 quadratic or 10 linear ones.</p>\n" +
+         drawing::page::table({"part", "least", "median"}, rows);
+}
+
 std::string histogram(const json& counts, double bin, const std::string& title, const std::string& label) {
   drawing::Series bars{"", {}, {}};
   double place = 0;
@@ -70,7 +81,8 @@ std::string summary_part(const Results& r, const artifacts::ProgramVersion& prog
       text += fmt::format(", {} {}", drawing::page::escaped(region.value("name", "")), figure(at(region, "elements")));
     text += ".";
   }
-  return text + "</p>\n<h2 id=\"stages\">Stages</h2>\n" + stage_table(r) + settings_table(r);
+  text += "</p>\n" + across_table(at(at(r.manifest, "mesh"), "elements_across"));
+  return text + "<h2 id=\"stages\">Stages</h2>\n" + stage_table(r) + settings_table(r);
 }
 
 std::string mesh_part(const Results& r) {

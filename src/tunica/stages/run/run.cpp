@@ -268,7 +268,8 @@ void Run::open_outputs() {
                                .nodes = mesh_.global_nodes,
                                .elements = mesh_.global_elements,
                                .regions = {},
-                               .first_step = grid_.steps_done()};
+                               .first_step = grid_.steps_done(),
+                               .across = input_.mesh.across};
   for (const auto& r : input_.mesh.data.regions) head.regions.emplace_back(r.name, r.end_element - r.first_element);
   parallel::on_root(comm_, [&] {
     const auto from = keep ? std::optional(state_.step) : std::nullopt;
