@@ -12,6 +12,7 @@
 #include "tunica/distributed/element_shape.hpp"
 #include "tunica/frames/laplace.hpp"
 #include "tunica/frames/tears.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::analysis {
@@ -42,7 +43,7 @@ std::vector<double> sides(const DistributedMesh& mesh, const RunDescription& run
   if (run.interface && has_wall(mesh, usual.true_lumen[0]) && has_wall(mesh, usual.false_lumen[0]))
     return frames::lumen_sides(mesh, usual).phi;
   for (const auto& field : mesh.node_fields)
-    if (field.name == lumen_side_field) return field.values;
+    if (field.name == mesh::lumen_side) return field.values;
   return {};
 }
 
@@ -251,6 +252,9 @@ std::optional<Lumens> find_lumens(const DistributedMesh& mesh, const RunDescript
   Lumens lumens;
   auto& map = lumens.map;
   for (const double s : side) map.in_false.push_back(s > 0 ? 0 : 1);
+  for (const auto& face : mesh.faces)
+    map.sticks.push_back(std::find(run.sticking_faces.begin(), run.sticking_faces.end(), face.name) !=
+                         run.sticking_faces.end());
   std::vector<Crossing> mine;
   for_each_owned(mesh, [&](std::size_t r, std::int32_t e) {
     if (crosses(values_of(map.in_false, mesh.regions[r].elements[e])))

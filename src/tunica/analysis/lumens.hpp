@@ -13,9 +13,6 @@
 
 namespace tunica::analysis {
 
-/// Node field of a mesh that tells the lumens apart where no wall does: > 0 in the true lumen.
-inline constexpr const char* lumen_side_field = "lumen_side";
-
 struct TearPlace {
   std::string name;                ///< tear_1, tear_2, ... downstream
   Vec3<double> centre{{0, 0, 0}};  ///< m
@@ -27,7 +24,8 @@ struct Lumens {
   std::vector<TearPlace> tears;
 };
 
-/// A node belongs to the false lumen where the function of `post.lumens` (frames/tears.hpp) is not positive. The
+/// A node belongs to the false lumen where the function of `post.lumens` (frames/tears.hpp), or without such walls the
+/// field mesh::lumen_side, is not positive. The
 /// elements with nodes of both lumens are the tears, one for each set that hangs together across faces; specks of less
 /// than a thousandth of the largest area count to the tear next to them, so that the sets are complete. What lies
 /// within the diameter of a tear is its part of the vessel, the rest belongs to the lumens.

@@ -12,6 +12,7 @@
 #include "tunica/frames/laplace.hpp"
 #include "tunica/frames/tears.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
 
@@ -87,20 +88,25 @@ std::vector<double> everywhere(const distributed::DistributedMesh& mesh, const s
   return field;
 }
 
-/// Regions by which the lumens are told apart; says what is left out when there are none.
+/// Regions by which the lumens are told apart.
 std::optional<frames::LumenWalls> lumen_walls(const RunDescription& run, const PostSettings& settings,
-                                              const mesh::MeshData& data, Vessel& vessel) {
+                                              const mesh::MeshData& data) {
   if (settings.lumens && run.interface) return settings.lumens;
   const frames::LumenWalls usual{{"true_lumen_wall"}, {"false_lumen_wall"}};
   const bool named = has_wall_region(data, usual.true_lumen[0]) && has_wall_region(data, usual.false_lumen[0]);
   if (named && run.interface) return usual;
+  return std::nullopt;
+}
+
+/// Says what is left out where nothing tells the lumens apart.
+void leave_lumens_out(const RunDescription& run, Vessel& vessel) {
   const std::string why =
       run.interface ? "the wall has no regions true_lumen_wall and false_lumen_wall; name those along the "
                       "lumens in post.lumens"
-                    : "there is no wall, whose regions tell the lumens apart";
+                    : "there is no wall, whose regions tell the lumens apart, and the mesh of the lumen has no point "
+                      "array lumen_side, as tunica mesh writes it";
   vessel.left_out.push_back({"lumens", why});
   vessel.left_out.push_back({"tears", why});
-  return std::nullopt;
 }
 
 frames::Domain domain_of(const RunDescription& run) {
@@ -219,12 +225,19 @@ Vessel make_vessel(const RunDescription& run, const PostSettings& settings, cons
   }
   sort_faces(run, data, vessel);
   find_ends(run, settings, data, vessel);
-  const auto walls = lumen_walls(run, settings, data, vessel);
+  const auto walls = lumen_walls(run, settings, data);
   const auto mesh = distributed::distribute(data, comm);
   vessel.along = potential_along(run, data, mesh, vessel);
   vessel.towards_end = potential_towards_end(run, data, mesh, vessel);
   if (walls) {
     vessel.side = everywhere(mesh, frames::lumen_sides(mesh, *walls).phi);
+  } else {
+    for (const auto& field : data.node_fields)
+      if (field.name == mesh::lumen_side) vessel.side = field.values;
+  }
+  if (vessel.side.empty()) {
+    leave_lumens_out(run, vessel);
+  } else {
     const auto* lumen = lumen_region(data);
     for (auto e = lumen->first_element; e < lumen->end_element; ++e)
       vessel.false_share.push_back(

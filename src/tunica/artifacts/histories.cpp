@@ -146,6 +146,19 @@ std::vector<HistoryBreak> breaks_of(const files::CsvColumns& history) {
   return breaks;
 }
 
+std::vector<double> si_column(const files::CsvColumns& table, const std::string& name, const config::Dimension& due) {
+  for (std::size_t k = 0; k < table.headers.size(); ++k) {
+    const std::string& header = table.headers[k];
+    if (!header.starts_with(name + " [") || !header.ends_with("]")) continue;
+    const double factor = config::unit_factor(header.substr(name.size() + 2, header.size() - name.size() - 3), due);
+    auto values = table.columns[k];
+    for (auto& v : values) v *= factor;
+    return values;
+  }
+  throw InputError(table.file.string(), fmt::format("no column is called '{} [unit]'", name),
+                   "run the case again, or choose from: " + files::listed(table.headers));
+}
+
 CsvTable::CsvTable(const fs::path& file, std::vector<std::string> columns, std::optional<std::int64_t> continue_from,
                    Lines lines)
     : file_(file), columns_(columns.size()) {
@@ -175,6 +188,15 @@ void CsvTable::append(std::int64_t step, std::span<const double> values) {
 }
 
 void CsvTable::sync() const { files::sync_file(file_); }
+
+CsvTable later_history(const fs::path& file, std::vector<std::string> columns,
+                       std::optional<std::int64_t> continue_from, std::vector<std::string>& told) {
+  const bool lacks = continue_from && !fs::exists(fs::symlink_status(file));
+  if (lacks)
+    told.push_back(fmt::format("{}: is missing in the run to be continued, and begins after step {}", file.string(),
+                               *continue_from));
+  return {file, std::move(columns), lacks ? std::nullopt : continue_from, CsvTable::Lines::for_every_step};
+}
 
 Histories::Histories(const fs::path& folder, const case_file::Case& c, const std::vector<std::string>& faces,
                      const std::vector<bc::Outlet>& outlets, std::optional<std::int64_t> continue_from)
@@ -222,6 +244,7 @@ Histories::Histories(const fs::path& folder, const case_file::Case& c, const std
                                           "mesh [s]", "total [s]"},
                  continue_from, CsvTable::Lines::for_every_step);
   open_points_and_forces(folder, c, faces, continue_from);
+  open_inflows(folder, c, faces, continue_from);
 }
 
 namespace {
@@ -254,15 +277,43 @@ void Histories::open_points_and_forces(const fs::path& folder, const case_file::
   forces_.emplace(folder / "forces.csv", columns, continue_from, CsvTable::Lines::for_every_step);
 }
 
+void Histories::open_inflows(const fs::path& folder, const case_file::Case& c, const std::vector<std::string>& faces,
+                             std::optional<std::int64_t> continue_from) {
+  if (!c.solves_fluid()) return;
+  std::vector<std::string> columns{fmt::format("time [{}]", c.output.units.time)};
+  for (const auto& face : faces) {
+    const bool prescribed = std::any_of(c.boundary.begin(), c.boundary.end(), [&](const auto& b) {
+      return b.first == face && std::holds_alternative<bc::Flow>(b.second);
+    });
+    if (!prescribed) continue;
+    for (const char* which : {"prescribed flow", "flow"})
+      columns.push_back(fmt::format("{} {} [{}]", face, which, c.output.units.flow));
+    columns.push_back(face + " relative difference");
+  }
+  if (columns.size() > 1) inflows_ = later_history(folder / "inflows.csv", columns, continue_from, begun_);
+}
+
+void Histories::append_inflows(const StepHistory& step) {
+  if (!inflows_) return;
+  std::vector<double> line{per_si_.time * step.evaluated};
+  for (const auto& face : step.record.faces) {
+    if (!face.prescribed) continue;
+    const double difference = std::abs(face.flow - *face.prescribed);
+    line.insert(line.end(), {per_si_.flow * *face.prescribed, per_si_.flow * face.flow,
+                             difference > 0 ? difference / step.record.largest_flow : 0.0});
+  }
+  inflows_->append(step.step, line);
+}
+
 std::vector<std::string> Histories::damage() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = begun_;
   std::optional<std::int64_t> first;
-  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_}) {
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_, &inflows_}) {
     if (!*table) continue;
     all.insert(all.end(), (*table)->damage().begin(), (*table)->damage().end());
     if (const auto step = (*table)->first_step(); step) first = std::min(first.value_or(*step), *step);
   }
-  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_})
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_, &inflows_})
     if (*table && (*table)->first_step() > first)
       all.push_back(
           fmt::format("{}: {}", (*table)->file().string(), missing_steps(*first, *(*table)->first_step() - 1)));
@@ -293,7 +344,7 @@ std::vector<double> Histories::balance_line(const StepHistory& step) const {
 }
 
 void Histories::sync() const {
-  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_})
+  for (const auto* table : {&faces_, &outlets_, &balance_, &steps_, &points_, &forces_, &inflows_})
     if (*table) (*table)->sync();
 }
 
@@ -332,6 +383,7 @@ void Histories::append(const StepHistory& step, const std::vector<bc::Outlet>& o
   }
   balance_->append(step.step, balance_line(step));
   append_points_and_forces(step);
+  append_inflows(step);
   int mesh_iterations = 0;
   for (const auto& iteration : step.report.iterations) mesh_iterations += iteration.mesh_iterations;
   const auto& t = step.report.timings;

@@ -10,6 +10,7 @@
 
 #include "tunica/bc/outlets.hpp"
 #include "tunica/case/case.hpp"
+#include "tunica/config/units.hpp"
 #include "tunica/coupling/monitors.hpp"
 #include "tunica/coupling/probes.hpp"
 #include "tunica/files/csv_file.hpp"
@@ -23,6 +24,9 @@ struct HistoryBreak {
 };
 /// Lost and doubled lines of a history that has one for every step.
 std::vector<HistoryBreak> breaks_of(const files::CsvColumns& history);
+
+/// Column "name [unit]" of a history in SI. Throws InputError where there is none.
+std::vector<double> si_column(const files::CsvColumns& table, const std::string& name, const config::Dimension& due);
 
 /// One CSV file. The first column is the number of the step, an integer. Not collective: for one rank.
 class CsvTable {
@@ -56,6 +60,11 @@ class CsvTable {
   std::size_t columns_;
 };
 
+/// A history with a line for every step. The folder of a version that did not write it is continued: it begins with
+/// the restart then, which `told` says. Throws as CsvTable.
+CsvTable later_history(const std::filesystem::path& file, std::vector<std::string> columns,
+                       std::optional<std::int64_t> continue_from, std::vector<std::string>& told);
+
 /// What one accepted step leaves in the histories.
 struct StepHistory {
   std::int64_t step = 0;  ///< accepted steps so far, parts of steps counted
@@ -69,6 +78,7 @@ struct StepHistory {
 
 /// The histories of a run, in the units of the case:
 /// - faces.csv: flow, mean pressure and area of each lumen face;
+/// - inflows.csv: prescribed and actual flow of each face with a `flow`;
 /// - outlets.csv: flow, pressure and stored pressure of each resistance and RCR outlet, at the end of the step;
 /// - balance.csv: volumes, energies, powers, and what is left of the balances of mass and interface power;
 /// - points.csv: displacement, velocity and pressure at the points of the case, at the end of the step;
@@ -90,8 +100,8 @@ class Histories {
 
   /// All files of histories that a run may write, those of other classes included.
   static std::vector<std::string> files() {
-    return {"faces.csv",  "outlets.csv", "balance.csv", "steps.csv",       "cycles.csv",
-            "points.csv", "forces.csv",  "lumens.csv",  "dissipation.csv", "lumens.json"};
+    return {"faces.csv",  "outlets.csv", "balance.csv",     "steps.csv",   "cycles.csv", "points.csv",
+            "forces.csv", "lumens.csv",  "dissipation.csv", "lumens.json", "inflows.csv"};
   }
 
  private:
@@ -102,9 +112,13 @@ class Histories {
   void open_points_and_forces(const std::filesystem::path& folder, const case_file::Case& c,
                               const std::vector<std::string>& faces, std::optional<std::int64_t> continue_from);
   void append_points_and_forces(const StepHistory& step);
+  void open_inflows(const std::filesystem::path& folder, const case_file::Case& c,
+                    const std::vector<std::string>& faces, std::optional<std::int64_t> continue_from);
+  void append_inflows(const StepHistory& step);
 
   Factors per_si_;
-  std::optional<CsvTable> faces_, outlets_, balance_, steps_, points_, forces_;
+  std::optional<CsvTable> faces_, outlets_, balance_, steps_, points_, forces_, inflows_;
+  std::vector<std::string> begun_;  ///< what a continued run lacks
 };
 
 }  // namespace tunica::artifacts

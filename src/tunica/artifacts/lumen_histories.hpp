@@ -14,8 +14,8 @@
 
 namespace tunica::artifacts {
 
-/// - lumens.csv: flow into the false lumen through each tear, its outflow by openings, dV/dt, volumes of both lumens,
-///   and what is left of the balance;
+/// - lumens.csv: flow into the false lumen through each tear, its outflow by openings, leakage of its wall, dV/dt,
+///   volumes of both lumens, and what is left of the balance;
 /// - dissipation.csv: viscous and numerical dissipation of each part of the lumen;
 /// - lumens.json: names, centres and areas of the tears, in mm.
 /// A folder of a version that did not write them is continued: they begin with the restart. Not collective.
@@ -35,5 +35,18 @@ class LumenHistories {
   std::vector<std::string> begun_;  ///< files that a continued run lacks
   std::optional<CsvTable> lumens_, dissipation_;
 };
+
+/// What a run has written of its lumens, in SI.
+struct LumenSeries {
+  files::CsvColumns table;    ///< lumens.csv as it stands
+  std::vector<double> times;  ///< s
+  std::vector<analysis::TearPlace> tears;
+  std::vector<std::vector<double>> tear_flows;  ///< [tear][line] into the false lumen [m^3/s]
+  /// Of the false lumen: flow by its openings, leakage of its wall, dV/dt [m^3/s], volume [m^3]; volume of the true
+  /// one.
+  std::vector<double> outflow, leakage, volume_rate, volume, true_volume;
+};
+/// None where lumens.csv or lumens.json is not there. Throws InputError where they do not read or do not fit together.
+std::optional<LumenSeries> read_lumens(const std::filesystem::path& folder);
 
 }  // namespace tunica::artifacts

@@ -132,6 +132,7 @@ void Manifest::write(const ManifestProgress& p) {
                     {"linear", p.timings.linear},
                     {"mesh_motion", p.timings.mesh}}},
                   {"peak_memory [MB]", p.peak_memory / 1e6}});
+  if (p.dissipation) runs.back()["dissipation"] = to_json(*p.dissipation);
   const ordered_json manifest = {{"tunica",
                                   {{"version", head_.program.version},
                                    {"commit", head_.program.commit},

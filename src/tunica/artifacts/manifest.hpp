@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/artifacts/dissipation.hpp"
 #include "tunica/artifacts/inputs.hpp"
 #include "tunica/coupling/problem.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
@@ -42,7 +43,8 @@ struct ManifestProgress {
   double time = 0;                ///< s
   coupling::StepTimings timings;  ///< sums over the steps
   double set_up_seconds = 0, total_seconds = 0;
-  double peak_memory = 0;  ///< sum over the ranks [byte]
+  double peak_memory = 0;                    ///< sum over the ranks [byte]
+  std::optional<Dissipation> dissipation{};  ///< over the last full cycle, or the run where there is none
 };
 
 /// manifest.json in the folder of the results. A restart adds an entry to the list of runs. Not collective: for one

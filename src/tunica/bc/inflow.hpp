@@ -24,7 +24,7 @@ struct InflowProfile {
 /// rim nodes belong to the wall.
 /// Scaled so that the discrete flow is exact: sum over triangles of (mean of phi) n . a_T = 1, a_T the area vectors. On
 /// a plane this is the integral of phi; on a face that is not quite planar it is what keeps Q exact.
-/// Refers to the positions it is given (the reference mesh): where an opening moves, the flow through it changes.
+/// Refers to the positions it is given (the reference mesh): where an opening moves, `coupling` scales the velocities.
 /// Planes of symmetry (`symmetry`) are no rim: the profile meets them without a slope, and n must lie in them.
 /// Throws InputError: no rim, several separate patches, no node off the rim, zero-area triangle, not a manifold.
 InflowProfile inflow_profile(const FaceMesh& face, Profile profile, const SymmetryMarks& symmetry = {});

@@ -99,6 +99,21 @@ std::array<std::int32_t, 6> quadratic_nodes(const distributed::Face& face, std::
   return {corners[0], corners[1], corners[2], edges[0], edges[1], edges[2]};
 }
 
+/// Flow out of the lumen relative to the moving mesh, of the triangles that this rank owns [m^3/s].
+double owned_flow(const distributed::DistributedMesh& mesh, const distributed::Face& face, const FieldsView& fields) {
+  double sum = 0;
+  for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
+    Vec3<double> x[3], v[3], w[3];
+    // Of linear functions the corners have a third of the area each, of quadratic ones the nodes of the edges.
+    const auto& nodes = mesh.quadratic ? face.edges[t] : face.triangles[t];
+    gather(fields.position, face.triangles[t], x);
+    gather(fields.velocity_pressure, nodes, v);
+    gather(fields.mesh_velocity, nodes, w);
+    sum += fluid::flow(x, v, w);
+  }
+  return sum;
+}
+
 template <class Kernel>
 void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& matrix, std::int32_t row,
                std::int32_t column, const Kernel& entry) {
@@ -223,6 +238,7 @@ struct Boundaries::Builder {
     const auto profile = parallel::agree(mesh.comm, [&] { return bc::inflow_profile(whole.mesh(), c.profile, marks); });
     const auto flow = parallel::agree(mesh.comm, [&] { return bc::inflow(c); });
     parallel::agree(mesh.comm, [&] { require_upright(mesh.faces[index], profile.normal); });
+    b.inflows_.push_back({index, b.waveforms_.size()});
     prescribe(mesh.faces[index], flow, [&](std::int32_t node) {
       return profile.velocity(static_cast<std::size_t>(whole.find(mesh.global_ids[node])), 1.0);
     });
@@ -362,6 +378,7 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   std::erase_if(prescribed_, [&](const PrescribedNode& p) { return still[p.node] != 0; });
   std::erase_if(field_nodes_, [&](const FieldNode& p) { return still[p.node] != 0; });
   builder.project_on_symmetry();
+  find_inflow_nodes();
 
   // Wall nodes of the displacement element, and wall-only parts of the mesh without fluid, have no pressure unknown.
   std::vector<char> has_pressure(mesh.nodes(), 0);
@@ -398,6 +415,49 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   for (const auto& c : constraints_.list()) {
     projector_of_[c.node] = static_cast<std::int32_t>(projector_.size());
     projector_.push_back(c.P);
+  }
+}
+
+void Boundaries::find_inflow_nodes() {
+  inflow_profiles_.assign(at(mesh_.nodes()), 0.0);
+  for (std::size_t k = 0; k < inflows_.size(); ++k)
+    for (const auto& p : prescribed_) {
+      if (p.waveform != inflows_[k].waveform) continue;
+      for (int i = 0; i < 3; ++i) inflow_profiles_[at(p.node) + i] = p.velocity[i];
+      inflow_profiles_[at(p.node) + 3] = static_cast<double>(k + 1);
+    }
+  mesh_.halo.update(inflow_profiles_, 4);
+  for (std::int32_t node = 0; node < mesh_.nodes(); ++node)
+    if (const double number = inflow_profiles_[at(node) + 3]; number > 0)
+      inflow_nodes_.push_back({node, vector_at(inflow_profiles_.data(), node), static_cast<std::size_t>(number) - 1});
+}
+
+std::vector<Boundaries::FaceFlow> Boundaries::prescribed_flows(double t) const {
+  std::vector<FaceFlow> flows;
+  for (const auto& inflow : inflows_) flows.push_back({inflow.face, -waveforms_[inflow.waveform].value(t)});
+  return flows;
+}
+
+std::vector<Boundaries::FaceFlow> Boundaries::actual_flows(const FieldsView& fields) const {
+  std::vector<double> sums;
+  for (const auto& inflow : inflows_) sums.push_back(owned_flow(mesh_, mesh_.faces[inflow.face], fields));
+  parallel::global_sum(mesh_.comm, sums);
+  std::vector<FaceFlow> flows;
+  for (std::size_t k = 0; k < inflows_.size(); ++k) flows.push_back({inflows_[k].face, sums[k]});
+  return flows;
+}
+
+void Boundaries::scale_inflows(std::span<const FaceFlow> flows, double weight, const FieldsView& fields,
+                               std::span<double> velocity_pressure) const {
+  const std::vector<double> at_rest(inflow_profiles_.size(), 0.0);
+  FieldsView profiles = fields;
+  profiles.velocity_pressure = inflow_profiles_.data();
+  profiles.mesh_velocity = at_rest.data();
+  const auto actual = actual_flows(fields), of_unit = actual_flows(profiles);
+  for (const auto& n : inflow_nodes_) {
+    const auto k = n.inflow;
+    const double change = (flows[k].outward - actual[k].outward) / (weight * of_unit[k].outward);
+    for (int i = 0; i < 3; ++i) velocity_pressure[at(n.node) + i] += change * n.velocity[i];
   }
 }
 
@@ -615,20 +675,7 @@ std::vector<bc::Outlet> Boundaries::make_outlets() const {
 
 std::vector<double> Boundaries::outlet_flows(const FieldsView& fields) const {
   std::vector<double> flows;
-  for (const auto& outlet : outlets_) {
-    const auto& face = mesh_.faces[outlet.face];
-    double sum = 0;
-    for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
-      Vec3<double> x[3], v[3], w[3];
-      // Of linear functions the corners have a third of the area each, of quadratic ones the nodes of the edges.
-      const auto& nodes = mesh_.quadratic ? face.edges[t] : face.triangles[t];
-      gather(fields.position, face.triangles[t], x);
-      gather(fields.velocity_pressure, nodes, v);
-      gather(fields.mesh_velocity, nodes, w);
-      sum += fluid::flow(x, v, w);
-    }
-    flows.push_back(sum);
-  }
+  for (const auto& outlet : outlets_) flows.push_back(owned_flow(mesh_, mesh_.faces[outlet.face], fields));
   parallel::global_sum(mesh_.comm, flows);
   return flows;
 }

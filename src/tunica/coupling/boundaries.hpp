@@ -80,6 +80,28 @@ class Boundaries {
     std::size_t waveform;
   };
 
+  /// A face with a condition `flow`, and the flow out of the lumen through it [m^3/s].
+  struct FaceFlow {
+    std::size_t face;
+    double outward;
+  };
+  /// What those faces prescribe at time t, in the order of the conditions.
+  std::vector<FaceFlow> prescribed_flows(double t) const;
+  /// What passes them, relative to the moving mesh, as the balance of mass counts it (eq. 4.5a). Collective.
+  std::vector<FaceFlow> actual_flows(const FieldsView& fields) const;
+
+  /// A node inside such a face, ghosts included.
+  struct InflowNode {
+    std::int32_t node;
+    Vec3<double> velocity;  ///< per unit of the flow
+    std::size_t inflow;     ///< number of its face in prescribed_flows()
+  };
+  const std::vector<InflowNode>& inflow_nodes() const { return inflow_nodes_; }
+  /// Scales the velocities of those nodes at t_{n+1}, of which `fields` hold the share `weight`, so that the flows of
+  /// `fields` become `flows`. `fields` themselves are left as they are. Collective.
+  void scale_inflows(std::span<const FaceFlow> flows, double weight, const FieldsView& fields,
+                     std::span<double> velocity_pressure) const;
+
  private:
   struct Load {
     std::size_t face;
@@ -104,6 +126,7 @@ class Boundaries {
   };
   struct Builder;
 
+  void find_inflow_nodes();
   void add_lumen_load(const Load& load, double value, const FieldsView& fields, const LoadCoefficients& coefficients,
                       std::span<double> residual, assembly::BlockMatrix* matrix) const;
   void add_quadratic_lumen_load(const Load& load, double value, const FieldsView& fields,
@@ -135,6 +158,12 @@ class Boundaries {
   std::vector<OutletFace> outlets_;
   std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_
   std::vector<std::int32_t> projector_of_;
+  struct Inflow {
+    std::size_t face, waveform;
+  };
+  std::vector<Inflow> inflows_;
+  std::vector<InflowNode> inflow_nodes_;
+  std::vector<double> inflow_profiles_;  ///< velocities of inflow_nodes_, else zero [local node][4]
 };
 
 }  // namespace tunica::coupling

@@ -117,8 +117,8 @@ std::vector<double> cut_flows(const FluxStep& step, std::span<const distributed:
   return flows;
 }
 
-PartBalance part_balance(const FluxStep& step, std::span<const double> q) {
-  double sums[3] = {};
+PartBalance part_balance(const FluxStep& step, std::span<const double> q, std::span<const char> sticks) {
+  double sums[4] = {};
   for (const auto& region : step.mesh.regions) {
     if (region.kind != RegionKind::lumen) continue;
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
@@ -132,20 +132,22 @@ PartBalance part_balance(const FluxStep& step, std::span<const double> q) {
       sums[1] += mean * shape.volume * divergence;
     }
   }
-  for (const auto& face : step.mesh.faces)
-    if (step.mesh.regions[face.region].kind == RegionKind::lumen)
-      for (std::int32_t t = 0; t < face.owned_triangles; ++t)
-        sums[2] += outflow(step, face, static_cast<std::size_t>(t), q);
+  for (std::size_t f = 0; f < step.mesh.faces.size(); ++f) {
+    const auto& face = step.mesh.faces[f];
+    if (step.mesh.regions[face.region].kind != RegionKind::lumen) continue;
+    for (std::int32_t t = 0; t < face.owned_triangles; ++t)
+      sums[sticks[f] ? 3 : 2] += outflow(step, face, static_cast<std::size_t>(t), q);
+  }
   parallel::global_sum(step.mesh.comm, sums);
-  return {sums[0], sums[1], sums[2]};
+  return {sums[0], sums[1], sums[2], sums[3]};
 }
 
 LumenRecord lumen_record(const FluxStep& step, const distributed::LumenMap& map) {
   LumenRecord record;
   record.tear_flows = cut_flows(step, map.cuts, map.tears.size());
-  record.in_false = part_balance(step, map.in_false);
+  record.in_false = part_balance(step, map.in_false, map.sticks);
   record.residual = std::accumulate(record.tear_flows.begin(), record.tear_flows.end(), 0.0) - record.in_false.outflow -
-                    record.in_false.volume_rate;
+                    record.in_false.leakage - record.in_false.volume_rate;
   for (const double flow : record.tear_flows) record.largest_flow = std::max(record.largest_flow, std::abs(flow));
   if (map.tears.empty())
     record.largest_flow = std::max(std::abs(record.in_false.outflow), std::abs(record.in_false.volume_rate));

@@ -30,18 +30,21 @@ std::vector<double> cut_flows(const FluxStep& step, std::span<const distributed:
 struct PartBalance {
   double volume = 0;       ///< integral of q [m^3]
   double volume_rate = 0;  ///< its rate as the mesh moves, integral of q div v^ [m^3/s]
-  double outflow = 0;      ///< of q through all faces of the lumen, relative to them [m^3/s]
+  double outflow = 0;      ///< of q through the openings of the lumen, relative to them [m^3/s]
+  /// The same through the faces that the blood sticks to. Between the corners the mesh moves linearly, the blood of
+  /// quadratic elements as their edges do: what passes is the difference. None of linear elements.
+  double leakage = 0;
 };
-/// `q` [local node]. Collective.
-PartBalance part_balance(const FluxStep& step, std::span<const double> q);
+/// `q` [local node]; `sticks` [face]: does the blood stick to it? Collective.
+PartBalance part_balance(const FluxStep& step, std::span<const double> q, std::span<const char> sticks);
 
 /// True and false lumen of a step.
 struct LumenRecord {
   std::vector<double> tear_flows;  ///< into the false lumen [m^3/s]
   PartBalance in_false;
   double true_volume = 0;  ///< [m^3]
-  /// Sum of the flows through the tears less what leaves by openings and what the false lumen gains [m^3/s]. It
-  /// vanishes to the tolerance of Newton's method.
+  /// Sum of the flows through the tears less what leaves by openings and through the wall and what the false lumen
+  /// gains [m^3/s]. It vanishes to the tolerance of Newton's method.
   double residual = 0;
   double largest_flow = 0;                 ///< of the tears, or of outflow and rate: what `residual` compares with
   std::vector<double> viscous, numerical;  ///< dissipation of each part [W]

@@ -103,7 +103,7 @@ void Monitors::faces(StepRecord& record) const {
       area += fluid::area(x);
       sweep += dot(fluid::nodal_area_vector(x), w[0] + w[1] + w[2]);
     }
-    record.faces.push_back({face.name, 0, 0, 0});
+    record.faces.push_back({face.name, 0, 0, 0, {}});
     sums.insert(sums.end(), {flow, force, area, sweep});
   }
   parallel::global_sum(mesh.comm, sums);
@@ -116,6 +116,9 @@ void Monitors::faces(StepRecord& record) const {
     record.mass_residual += s[0];
     record.largest_flow = std::max(record.largest_flow, std::abs(s[0]));
   }
+  for (const auto& prescribed : problem_.prescribed_flows())
+    for (auto& face : record.faces)
+      if (face.name == mesh.faces[prescribed.face].name) face.prescribed = prescribed.outward;
   record.mass_residual += record.volume_rate;
   record.largest_flow = std::max(record.largest_flow, std::abs(record.volume_rate));
 }

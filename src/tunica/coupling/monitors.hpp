@@ -13,9 +13,10 @@ namespace tunica::coupling {
 /// A face of the lumen at t_{n+alpha_f}.
 struct FaceRecord {
   std::string name;
-  double flow = 0;           ///< out of the lumen, relative to the moving face [m^3/s]
-  double mean_pressure = 0;  ///< [Pa]
-  double area = 0;           ///< [m^2]
+  double flow = 0;                     ///< out of the lumen, relative to the moving face [m^3/s]
+  double mean_pressure = 0;            ///< [Pa]
+  double area = 0;                     ///< [m^2]
+  std::optional<double> prescribed{};  ///< flow out of the lumen by a condition `flow` [m^3/s]
 };
 
 /// Force of the blood on a face that it sticks to, at t_{n+alpha_f}.

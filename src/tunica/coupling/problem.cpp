@@ -199,6 +199,40 @@ void Problem::evaluate_fields(const State& old_state, const State& next, const I
       if (is_lumen(edge)) set_to_mean(*field, edge);
 }
 
+// Linear between the ends of the step, as all that is prescribed. The first step goes out from what the state has,
+// which may be blood at rest.
+std::vector<Boundaries::FaceFlow> Problem::flows_to_prescribe(const State& state, double until,
+                                                              const TimeScheme& scheme) const {
+  auto flows = boundaries_.prescribed_flows(state.time);
+  if (state.dt == 0) {
+    auto position = state.displacement;
+    for (std::size_t k = 0; k < position.size(); ++k) position[k] += reference_position_[k];
+    FieldsView view = fields();
+    view.position = position.data();
+    view.velocity_pressure = state.velocity_pressure.data();
+    view.mesh_velocity = state.displacement_rate.data();
+    flows = boundaries_.actual_flows(view);
+  }
+  const auto at_end = boundaries_.prescribed_flows(until);
+  for (std::size_t k = 0; k < flows.size(); ++k)
+    flows[k].outward = scheme.at_alpha_f(flows[k].outward, at_end[k].outward);
+  return flows;
+}
+
+// The opening stretches and its nodes slide as the mesh moves, so that the same velocities carry another flow.
+void Problem::scale_inflows(const State& old_state, State& next, const TimeScheme& scheme) {
+  if (!moving() || prescribed_flows_.empty()) return;
+  boundaries_.scale_inflows(prescribed_flows_, scheme.alpha_f, fields(), next.velocity_pressure);
+  for (const auto& inflow : boundaries_.inflow_nodes())
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t k = at(inflow.node) + c;
+      const double v_old = old_state.velocity_pressure[k], v = next.velocity_pressure[k];
+      next.acceleration[k] = scheme.new_rate(v_old, old_state.acceleration[k], v);
+      velocity_pressure_[k] = scheme.at_alpha_f(v_old, v);
+      acceleration_[k] = scheme.at_alpha_m(old_state.acceleration[k], next.acceleration[k]);
+    }
+}
+
 // Rates and wall displacements that belong to the velocities of `next`.
 void Problem::follow_velocity(const State& old_state, State& next, const TimeScheme& scheme) const {
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
@@ -350,6 +384,7 @@ void Problem::update(const State& old_state, State& next, const Instant& instant
   synchronise_twins(next);
   record.step_length = step_length;
   evaluate_fields(old_state, next, instant);
+  if (instant.scheme) scale_inflows(old_state, next, *instant.scheme);
 }
 
 double Problem::residual_norm() const { return solver_.norm(std::span(residual_).first(at(mesh_.owned_nodes))); }
@@ -487,6 +522,7 @@ StepReport Problem::advance(State& state, double dt) {
   next.time = state.time + dt;
   next.dt = dt;
   ++next.step;
+  prescribed_flows_ = flows_to_prescribe(state, next.time, scheme);
   boundaries_.prescribe(next.time, next.velocity_pressure);
   if (mesh_.quadratic) remember_start(state, next);
   follow_velocity(state, next, scheme);
@@ -498,6 +534,7 @@ StepReport Problem::advance(State& state, double dt) {
     }
   synchronise_twins(next);
   evaluate_fields(state, next, instant);
+  scale_inflows(state, next, scheme);
 
   StepReport report = newton(state, next, instant);
   if (!report.converged) return report;

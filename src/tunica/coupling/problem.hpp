@@ -104,6 +104,8 @@ class Problem {
   /// Fields at t_{n+alpha_f} of the last evaluation.
   FieldsView fields() const;
   const Boundaries& boundaries() const { return boundaries_; }
+  /// Flows that the conditions `flow` prescribe at t_{n+alpha_f} of the last step.
+  const std::vector<Boundaries::FaceFlow>& prescribed_flows() const { return prescribed_flows_; }
   /// Largest speed [m/s] of the blood when the last step began, prescribed velocities at its end included; quadratic
   /// elements only.
   double flow_speed() const { return flow_speed_; }
@@ -124,6 +126,9 @@ class Problem {
   };
   void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
   void follow_velocity(const State& old_state, State& next, const assembly::TimeScheme& scheme) const;
+  std::vector<Boundaries::FaceFlow> flows_to_prescribe(const State& state, double until,
+                                                       const assembly::TimeScheme& scheme) const;
+  void scale_inflows(const State& old_state, State& next, const assembly::TimeScheme& scheme);
   void interpolate_pressure(State& state) const;
   void set_to_mean(std::span<double> field, const distributed::EdgeNode& edge) const;
   double largest_speed(const State& state) const;
@@ -176,6 +181,7 @@ class Problem {
   Instant last_instant_;
   double flow_speed_ = 0.0;
   StepTimings timings_;  ///< of the step under way
+  std::vector<Boundaries::FaceFlow> prescribed_flows_;
 };
 
 }  // namespace tunica::coupling

@@ -21,6 +21,7 @@ struct LumenMap {
   std::vector<double> in_false;  ///< q: 1 in the false lumen, else 0 [local node]; empty without lumens
   std::vector<std::string> parts;                  ///< of the lumen; empty without lumens
   std::vector<std::vector<std::int32_t>> part_of;  ///< [region][owned element]; of lumen regions
+  std::vector<char> sticks;  ///< [face] does the blood stick to it? What passes it is no outflow but leakage
 
   bool empty() const { return in_false.empty(); }
 };

@@ -10,6 +10,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 #include "tunica/mesh/names.hpp"
 #include "tunica/mesh/point_locator.hpp"
 #include "tunica/mesh/quality.hpp"
@@ -141,6 +142,14 @@ void refuse_not_finite(const mesh::ElementField& field, const std::string& where
                        fmt::format("cell array {} is not finite in element {}", field.name,
                                    i / static_cast<std::size_t>(field.components) + 1),
                        "write the array again");
+}
+
+void refuse_not_finite(const mesh::NodeField& field, const std::string& where) {
+  const auto bad = std::find_if(field.values.begin(), field.values.end(), [](double v) { return !std::isfinite(v); });
+  if (bad != field.values.end())
+    throw InputError(
+        where, fmt::format("point array {} is not finite in point {}", field.name, bad - field.values.begin() + 1),
+        "write the array again");
 }
 
 /// Point arrays of a face at the nodes of the volume.
@@ -343,7 +352,9 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   const auto where = volume_path.string();
   auto arrays = options.fields;
   if (options.regions) arrays.push_back(options.regions->array);
-  auto file = read_vtk_volume(volume_path, arrays);
+  auto file = read_vtk_volume(
+      volume_path, arrays, {},
+      kind == mesh::RegionKind::lumen ? std::vector<std::string>{mesh::lumen_side} : std::vector<std::string>{});
 
   mesh::LoadedMesh mesh;
   auto& data = mesh.data;
@@ -351,6 +362,7 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   data.tetrahedra = cells_of_type<4>(file, vtk_tetrahedron, "tetrahedra", options.metres_per_unit, where);
   data.regions = {{name, kind, 0, std::ssize(data.tetrahedra)}};
   for (const auto& field : file.fields) refuse_not_finite(field, where);
+  for (const auto& field : file.node_fields) refuse_not_finite(field, where);
   refuse_unlikely_size(data.points, options.metres_per_unit, where);
   refuse_unused_nodes(data, where);
   mesh.report.push_back(fmt::format("{}: {} nodes, {} tetrahedra, {} faces; GlobalNodeID {}, GlobalElementID {}", where,
@@ -372,7 +384,7 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   const auto volume = make_volume(data, boundary, file);
   std::vector<Problem> problems;
   std::vector<mesh::FaceData> faces;
-  std::vector<mesh::NodeField> node_fields;
+  std::vector<mesh::NodeField> node_fields = std::move(file.node_fields);
   for (const auto& path : surfaces.files) try {
       faces.push_back(read_face(path, volume, options, node_fields, mesh.report));
     } catch (const InputError& error) {

@@ -16,6 +16,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
 
@@ -80,6 +81,14 @@ vtkNew<vtkDoubleArray> field_array(const mesh::ElementField& field, const std::v
   return array;
 }
 
+vtkNew<vtkDoubleArray> field_array(const mesh::NodeField& field, const std::vector<Index>& nodes) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(field.name.c_str());
+  array->SetNumberOfValues(std::ssize(nodes));
+  for (Index i = 0; i < std::ssize(nodes); ++i) array->SetValue(i, field.values[nodes[i]]);
+  return array;
+}
+
 vtkNew<vtkPoints> points(const mesh::MeshData& data, const std::vector<Index>& nodes, double metres_per_unit) {
   vtkNew<vtkPoints> result;
   result->SetDataTypeToDouble();
@@ -97,7 +106,8 @@ std::vector<Index> counted(Index n) {
   return numbers;
 }
 
-void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& part, double metres_per_unit) {
+void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& part, mesh::RegionKind kind,
+                  double metres_per_unit) {
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points(data, part.nodes, metres_per_unit));
   vtkNew<vtkCellArray> cells;
@@ -116,6 +126,9 @@ void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& 
     for (; e < part.region_ends[r].second; ++e) region->SetValue(e, static_cast<int>(r) + 1);
   grid->GetCellData()->AddArray(region);
   for (const auto& field : data.fields) grid->GetCellData()->AddArray(field_array(field, part.elements));
+  for (const auto& field : data.node_fields)
+    if (kind == mesh::RegionKind::lumen && field.name == mesh::lumen_side)
+      grid->GetPointData()->AddArray(field_array(field, part.nodes));
   grid->GetPointData()->AddArray(id_array("GlobalNodeID", counted(std::ssize(part.nodes))));
   grid->GetCellData()->AddArray(id_array("GlobalElementID", counted(std::ssize(part.elements))));
   write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
@@ -173,7 +186,7 @@ std::vector<std::string> write_simvascular(const fs::path& folder, const mesh::M
     throw SolverError(fmt::format("{}: {} nodes or elements, the format can number {}", folder.string(), largest,
                                   std::numeric_limits<int>::max()));
   make_empty_surface_folder(folder / "mesh-surfaces");
-  write_volume(folder / "mesh-complete.mesh.vtu", data, part, metres_per_unit);
+  write_volume(folder / "mesh-complete.mesh.vtu", data, part, kind, metres_per_unit);
   const mesh::Boundary boundary(data.tetrahedra, std::ssize(data.points), folder.string());
   std::vector<const mesh::FaceData*> faces;
   for (const auto& face : data.faces)

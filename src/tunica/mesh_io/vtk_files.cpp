@@ -99,6 +99,14 @@ mesh::ElementField field_of(vtkDataSetAttributes* attributes, vtkDataArraySelect
   return field;
 }
 
+mesh::NodeField node_field_of(vtkDataSetAttributes* attributes, vtkDataArraySelection* present, const std::string& name,
+                              const std::filesystem::path& path) {
+  auto field = field_of(attributes, present, "point", name, path);
+  if (field.components != 1)
+    refuse(path, fmt::format("point array {} has {} components, one is expected", name, field.components));
+  return {name, std::move(field.values)};
+}
+
 template <class Grid, class CellTypes>
 VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, const std::filesystem::path& path) {
   VtkCells result;
@@ -128,10 +136,10 @@ VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, 
 }  // namespace
 
 VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields,
-                         const std::vector<std::string>& point_fields) {
+                         const std::vector<std::string>& point_fields, const std::vector<std::string>& optional) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   auto wanted = fields;
-  wanted.insert(wanted.end(), point_fields.begin(), point_fields.end());
+  for (const auto* more : {&point_fields, &optional}) wanted.insert(wanted.end(), more->begin(), more->end());
   update(reader.Get(), "UnstructuredGrid", wanted, path);
   vtkUnstructuredGrid* grid = reader->GetOutput();
   VtkCells cells = arrays(
@@ -141,6 +149,10 @@ VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<st
   for (const auto& name : point_fields)
     cells.point_fields.push_back(
         field_of(grid->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path));
+  for (const auto& name : optional)
+    if (grid->GetPointData()->GetArray(name.c_str()))
+      cells.node_fields.push_back(
+          node_field_of(grid->GetPointData(), reader->GetPointDataArraySelection(), name, path));
   return cells;
 }
 
@@ -161,12 +173,9 @@ VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<s
   VtkCells cells = arrays(
       surface, surface->GetPolys(), [](std::int64_t, vtkIdType size) { return size == 3 ? VTK_TRIANGLE : VTK_POLYGON; },
       path);
-  for (const auto& name : fields) {
-    auto field = field_of(surface->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path);
-    if (field.components != 1)
-      refuse(path, fmt::format("point array {} has {} components, one is expected", name, field.components));
-    cells.node_fields.push_back({name, std::move(field.values)});
-  }
+  for (const auto& name : fields)
+    cells.node_fields.push_back(
+        node_field_of(surface->GetPointData(), reader->GetPointDataArraySelection(), name, path));
   return cells;
 }
 

@@ -19,15 +19,18 @@ struct VtkCells {
   std::vector<std::int64_t> connectivity;  ///< 0-based points
   std::vector<std::int64_t> global_node_ids, global_element_ids;  ///< as in the file; empty when it has none
   std::vector<mesh::ElementField> fields;                         ///< the cell arrays that were asked for
-  std::vector<mesh::NodeField> node_fields;                       ///< the point arrays of a surface, likewise
-  std::vector<mesh::ElementField> point_fields;                   ///< those of a volume: [point][component]
+  std::vector<mesh::NodeField>
+      node_fields;  ///< the point arrays of a surface, likewise; of a volume those that may be there
+  std::vector<mesh::ElementField> point_fields;  ///< those of a volume: [point][component]
 };
 
 /// Reads a .vtu or .vtp file of any encoding. Throws InputError when it is missing, not of that kind, damaged, or its
 /// cells name points that do not exist. `fields`: cell arrays, or of a surface point arrays of one component, to be
-/// read, too; one that is absent is an error, as it is with `point_fields`.
+/// read, too; one that is absent is an error, as it is with `point_fields`. `optional`: point arrays of one component
+/// of a volume that may be absent.
 VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields = {},
-                         const std::vector<std::string>& point_fields = {});
+                         const std::vector<std::string>& point_fields = {},
+                         const std::vector<std::string>& optional = {});
 VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
 
 /// What a .pvtu or .pvtp file says of its pieces.

@@ -7,6 +7,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 
 namespace tunica::meshing {
 
@@ -115,6 +116,12 @@ mesh::MeshData assemble(const geometry::Tetrahedra& mesh, const std::vector<geom
     data.faces.push_back({"wall_" + openings[o].name, wall_region, renumbered(faces.rings[o], wall)});
   data.faces.push_back({wall_interface, wall_region, renumbered(faces.interface, wall, true)});
   data.faces.push_back({"wall_outer", wall_region, renumbered(faces.outer, wall)});
+  if (std::any_of(regions.side.begin(), regions.side.end(), [](double side) { return side < 0; })) {
+    auto& side = data.node_fields.emplace_back(
+        mesh::NodeField{mesh::lumen_side, std::vector<double>(data.points.size(), std::nan(""))});
+    for (std::size_t n = 0; n < mesh.points.size(); ++n)
+      if (lumen[n] >= 0) side.values[lumen[n]] = regions.side[n];
+  }
   return data;
 }
 

@@ -20,7 +20,8 @@ struct SurfaceFaces {
 SurfaceFaces sort_surface(const geometry::Tetrahedra& mesh, const std::vector<geometry::Opening>& openings);
 
 /// Regions `lumen` and the wall regions that occur; faces `lumen_<opening>`, `wall_<opening>`, `lumen_wall`,
-/// `wall_inner`, `wall_outer`; nodes of the interface are there twice, as twins.
+/// `wall_inner`, `wall_outer`; nodes of the interface are there twice, as twins. With a false lumen the nodes of the
+/// lumen have mesh::lumen_side, so that one alone, in a rigid wall, knows its lumens.
 mesh::MeshData assemble(const geometry::Tetrahedra& mesh, const std::vector<geometry::Opening>& openings,
                         const SurfaceFaces& faces, const WallRegions& regions);
 

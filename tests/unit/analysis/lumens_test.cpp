@@ -9,6 +9,7 @@
 #include "tunica/config/schema.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::analysis {
@@ -69,7 +70,7 @@ TEST_P(LumensOnAMesh, TearsAreNumberedDownstream) {
   auto data = mesh::box(4, 4, 24, {{1, 1, 6}}, mesh::RegionKind::lumen);
   const auto in_false = [](double z) { return z > 1.1 && z < 4.6; };
   data.node_fields.push_back(
-      {lumen_side_field, testing::nodal(data, [&](const Vec3<double>& x) { return in_false(x[2]) ? -1.0 : 1.0; })});
+      {mesh::lumen_side, testing::nodal(data, [&](const Vec3<double>& x) { return in_false(x[2]) ? -1.0 : 1.0; })});
   for (const bool upwards : {true, false}) {
     const auto mesh = mesh_of(data);
     const std::string inlet = upwards ? "z_min" : "z_max";

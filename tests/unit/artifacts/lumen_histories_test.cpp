@@ -22,7 +22,7 @@ analysis::Lumens one_tear() {
 
 coupling::LumenRecord record() {
   return {.tear_flows = {2e-6},
-          .in_false = {.volume = 3e-6, .volume_rate = 0.5e-6, .outflow = 1.25e-6},
+          .in_false = {.volume = 3e-6, .volume_rate = 0.5e-6, .outflow = 1.0e-6, .leakage = 0.25e-6},
           .true_volume = 4e-6,
           .residual = 0.25e-6,
           .largest_flow = 2e-6,
@@ -35,9 +35,10 @@ TEST(LumenHistories, LinesInTheUnitsOfTheCase) {
   LumenHistories histories(folder.path(), {}, one_tear(), {});
   histories.append(1, 0.1, record());
   EXPECT_EQ(slurp(folder.path() / "lumens.csv"),
-            "step,time [s],tear_1 flow [ml/s],false lumen outflow [ml/s],false lumen dV/dt [ml/s],false lumen volume "
+            "step,time [s],tear_1 flow [ml/s],false lumen outflow [ml/s],false lumen wall leakage [ml/s],false lumen "
+            "dV/dt [ml/s],false lumen volume "
             "[mm^3],true lumen volume [mm^3],false lumen residual [ml/s],relative residual\n"
-            "1,0.1,2,1.25,0.5,3000,4000,0.25,0.125\n");
+            "1,0.1,2,1,0.25,0.5,3000,4000,0.25,0.125\n");
   EXPECT_EQ(slurp(folder.path() / "dissipation.csv"),
             "step,time [s],true lumen viscous dissipation [W],true lumen numerical dissipation [W],tear_1 viscous "
             "dissipation [W],tear_1 numerical dissipation [W]\n1,0.1,1,3,2,4\n");

@@ -9,6 +9,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "unit/mesh/check_mesh.hpp"
 
@@ -247,6 +248,28 @@ TEST(SimVascular, WritesElementFieldsThatReadBackToTheSameBits) {
   ASSERT_EQ(read.data.fields.size(), 1u);
   const auto first = field.values.begin() + 3 * data.regions[1].first_element;
   EXPECT_EQ(read.data.fields[0].values, std::vector(first, field.values.end()));
+}
+
+TEST(SimVascular, KeepsTheSideOfTheNodesOfALumen) {
+  auto data =
+      mesh::tube({.radius = 0.01, .length = 0.02, .wall_thickness = 0.002, .cells_around = 8, .cells_along = 2});
+  std::vector<double> side(data.points.size(), std::nan(""));
+  const auto& lumen = data.regions[0];
+  for (auto e = lumen.first_element; e < lumen.end_element; ++e)
+    for (const auto n : data.tetrahedra[static_cast<std::size_t>(e)])
+      side[static_cast<std::size_t>(n)] = data.points[static_cast<std::size_t>(n)][2] - 0.01 / 3;
+  data.node_fields = {{mesh::lumen_side, side}, {"wall_outer.k", side}};
+  const TemporaryFolder folder;
+  const auto read = [&](mesh::RegionKind kind) {
+    write_simvascular(folder.path(), data, kind, 1e-3);
+    return read_simvascular(folder.path(), kind, "part", {.metres_per_unit = 1e-3}).data;
+  };
+  const auto blood = read(mesh::RegionKind::lumen);
+  ASSERT_EQ(blood.node_fields.size(), 1u);
+  EXPECT_EQ(blood.node_fields[0].name, mesh::lumen_side);
+  for (std::size_t n = 0; n < blood.points.size(); ++n)
+    EXPECT_NEAR(blood.node_fields[0].values[n], blood.points[n][2] - 0.01 / 3, 1e-12);
+  EXPECT_TRUE(read(mesh::RegionKind::wall).node_fields.empty());
 }
 
 // svMultiPhysics takes other types of integers for absent.

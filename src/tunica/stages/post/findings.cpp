@@ -12,30 +12,7 @@
 
 namespace tunica::stages::post {
 
-namespace {
-
 namespace dimension = config::dimension;
-
-/// Column "name [unit]" in SI.
-std::vector<double> si_column(const files::CsvColumns& table, const std::string& name, const config::Dimension& due) {
-  for (std::size_t k = 0; k < table.headers.size(); ++k) {
-    const std::string& header = table.headers[k];
-    if (!header.starts_with(name + " [") || !header.ends_with("]")) continue;
-    const double factor = config::unit_factor(header.substr(name.size() + 2, header.size() - name.size() - 3), due);
-    auto values = table.columns[k];
-    for (auto& v : values) v *= factor;
-    return values;
-  }
-  throw InputError(table.file.string(), fmt::format("no column is called '{} [unit]'", name),
-                   "run the case again, or choose from: " + files::listed(table.headers));
-}
-
-std::vector<double> plus(std::vector<double> sum, const std::vector<double>& more) {
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += more[k];
-  return sum;
-}
-
-}  // namespace
 
 Window choose_window(const std::vector<double>& times, const analysis::PostSettings& settings,
                      const std::string& results, std::vector<std::string>& warnings) {
@@ -97,12 +74,12 @@ std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, 
                                           const analysis::Vessel& vessel, const Window& window) {
   if (!c.solves_fluid()) return {};
   const auto table = files::read_csv(results / "faces.csv", "run the case first: tunica run");
-  const auto times = si_column(table, "time", dimension::time);
+  const auto times = artifacts::si_column(table, "time", dimension::time);
   require_all_steps(table, times, window);
   std::vector<OpeningHistory> openings;
   for (const auto& opening : vessel.openings) {
-    const auto flow = si_column(table, opening.name + " flow", dimension::volume_flow),
-               pressure = si_column(table, opening.name + " pressure", dimension::pressure);
+    const auto flow = artifacts::si_column(table, opening.name + " flow", dimension::volume_flow),
+               pressure = artifacts::si_column(table, opening.name + " pressure", dimension::pressure);
     OpeningHistory history{opening.name, {}, {}, {}};
     for (std::size_t k = 0; k < times.size(); ++k) {
       if (times[k] < window.from || times[k] > window.until) continue;
@@ -118,6 +95,23 @@ std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, 
     openings.push_back(std::move(history));
   }
   return openings;
+}
+
+std::optional<artifacts::LumenSeries> read_lumens(const std::filesystem::path& results, const Window& window,
+                                                  std::string& why) {
+  auto series = artifacts::read_lumens(results);
+  if (!series) {
+    why = "the run has not written lumens.csv and lumens.json";
+    return std::nullopt;
+  }
+  const auto& times = series->times;
+  const bool later = times.size() < 2 || times.front() > window.from + 1.5 * (times[1] - times[0]);
+  if (later && series->table.column("step").front() > 1) {
+    why = fmt::format("the run began lumens.csv at {:.6g} s only", times.empty() ? window.until : times.front());
+    return std::nullopt;
+  }
+  require_all_steps(series->table, times, window);
+  return series;
 }
 
 std::size_t Findings::peak() const {
@@ -136,31 +130,14 @@ std::size_t Findings::peak() const {
   return static_cast<std::size_t>(std::max_element(measure.begin(), measure.end()) - measure.begin());
 }
 
-std::vector<double> Findings::flow_through_tears() const {
-  std::vector<double> sum(times.size(), 0.0);
-  for (const auto& tear : vessel.tears)
-    sum = plus(std::move(sum), figures.column(analysis::column::tear(tear.name, "flow")));
-  return sum;
-}
-
-std::vector<double> Findings::flow_out_of_false_lumen() const {
-  std::vector<double> sum(times.size(), 0.0);
-  for (const auto& opening : vessel.openings)
-    if (opening.in_false_lumen)
-      sum = plus(std::move(sum), figures.column(analysis::column::opening(opening.name, "flow")));
-  return sum;
-}
-
-std::size_t Findings::entry_tear() const {
-  std::size_t entry = 0;
-  double most = -1;
-  for (std::size_t k = 0; k < vessel.tears.size(); ++k)
-    if (const auto c = analysis::course(times, figures.column(analysis::column::tear(vessel.tears[k].name, "flow")));
-        c.forward > most) {
-      most = c.forward;
-      entry = k;
-    }
-  return entry;
+std::vector<std::string> Findings::too_dissipative(const std::vector<std::string>& parts) const {
+  if (!dissipation) return {};
+  auto names = dissipation->parts_above_limit();
+  std::erase_if(names, [&](const std::string& name) {
+    return dissipation->parts.size() > 1 && !parts.empty() &&
+           std::find(parts.begin(), parts.end(), name) == parts.end();
+  });
+  return names;
 }
 
 }  // namespace tunica::stages::post

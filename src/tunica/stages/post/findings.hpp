@@ -8,8 +8,10 @@
 
 #include "tunica/analysis/cycle.hpp"
 #include "tunica/analysis/frame_figures.hpp"
+#include "tunica/artifacts/dissipation.hpp"
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/case/case.hpp"
+#include "tunica/stages/post/lumen_flows.hpp"
 
 namespace tunica::stages::post {
 
@@ -33,6 +35,11 @@ struct OpeningHistory {
 std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, const case_file::Case& c,
                                           const analysis::Vessel& vessel, const Window& window);
 
+/// What the run has written of its lumens. None, with the reason in `why`, where it has not written it for the window.
+/// Throws InputError when a file does not read or lacks steps of the window.
+std::optional<artifacts::LumenSeries> read_lumens(const std::filesystem::path& results, const Window& window,
+                                                  std::string& why);
+
 struct Findings {
   artifacts::ProgramVersion program;
   std::filesystem::path case_file, results;
@@ -49,16 +56,16 @@ struct Findings {
   std::vector<analysis::LeftOut> left_out;
   std::vector<std::string> warnings;
   double seconds = 0;
+  std::optional<artifacts::Dissipation> dissipation{};  ///< over the window; none without flow
+  std::optional<LumenFlows> lumens{};                   ///< none where lumens are not told apart
 
   bool has_stations() const { return !vessel.stations.empty(); }
   bool has_flap() const { return figures.has(analysis::column::flap_mean); }
   /// Frame with the highest mean pressure at the inlet; without flow that with the highest mean stress of the wall.
   std::size_t peak() const;
-  /// Course of the net flow through all tears into the false lumen, and through its openings out of it [m^3/s].
-  std::vector<double> flow_through_tears() const;
-  std::vector<double> flow_out_of_false_lumen() const;
-  /// Index in vessel.tears of the one with the largest volume into the false lumen.
-  std::size_t entry_tear() const;
+  /// Those of `parts` of the lumen in which the scheme takes more from the flow than it may
+  /// (artifacts/dissipation.hpp), of all parts where none is named. Where the run told no parts apart, the whole lumen.
+  std::vector<std::string> too_dissipative(const std::vector<std::string>& parts = {}) const;
 };
 
 }  // namespace tunica::stages::post

@@ -33,6 +33,13 @@ ordered_json vector_mm(const Vec3<double>& x) {
   return ordered_json::array({x[0] / unit::mm, x[1] / unit::mm, x[2] / unit::mm});
 }
 
+/// Tells of a figure in which parts of the lumen it lies that the scheme disturbs, as Findings::too_dissipative().
+void mark(ordered_json& figure, const Findings& f, const std::vector<std::string>& parts = {}) {
+  if (const auto names = f.too_dissipative(parts); !names.empty()) figure["numerically_dissipated_in"] = names;
+}
+
+std::string part_of_lumen(std::size_t lumen) { return fmt::format("{} lumen", analysis::lumen_names[lumen]); }
+
 ordered_json openings(const Findings& f) {
   ordered_json list = ordered_json::array();
   double outflow = 0;
@@ -51,6 +58,7 @@ ordered_json openings(const Findings& f) {
                             {"smallest_ml_s", flow.smallest / unit::ml}}}};
     if (o.name != inlet) entry["share_of_outflow"] = flow.mean / outflow;
     if (!f.vessel.side.empty()) entry["lumen"] = analysis::lumen_names[f.vessel.openings[k].in_false_lumen ? 1 : 0];
+    mark(entry, f, {part_of_lumen(f.vessel.openings[k].in_false_lumen ? 1 : 0)});
     list.push_back(std::move(entry));
   }
   return list;
@@ -85,6 +93,7 @@ ordered_json wall_shear(const Findings& f) {
       {"area_mm2", total / unit::mm2}, {"tawss_Pa", shares(tawss)}, {"osi", shares(osi)}, {"rrt_1_Pa", shares(rrt)}};
   report["tawss_Pa"]["mean"] = sum / total;
   report["osi"]["mean"] = osi_sum / total;
+  mark(report, f);
   return report;
 }
 
@@ -113,9 +122,23 @@ ordered_json stresses(const Findings& f) {
       }
       entry[key_of(quantity) + "_kPa"] = {{"at_peak", of_peak}, {"cycle_maximum", of_cycle}};
     }
+    mark(entry, f);
     list.push_back(std::move(entry));
   }
   return list;
+}
+
+/// The lumens of a station, and the tears that it lies beside.
+std::vector<std::string> parts_at(const Findings& f, const analysis::Station& station) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!station.sections[k].empty()) parts.push_back(part_of_lumen(k));
+  for (std::size_t k = 0; f.lumens && k < f.lumens->tears.size(); ++k) {
+    const auto& tear = f.lumens->tears[k];
+    if (std::abs(tear.distance - station.distance) <= 2 * std::sqrt(tear.place.area / M_PI))
+      parts.push_back(tear.place.name);
+  }
+  return parts;
 }
 
 ordered_json stations(const Findings& f) {
@@ -144,6 +167,7 @@ ordered_json stations(const Findings& f) {
                                             {"largest_mmHg", difference.largest / unit::mmHg},
                                             {"smallest_mmHg", difference.smallest / unit::mmHg}};
     }
+    mark(entry, f, parts_at(f, station));
     list.push_back(std::move(entry));
   }
   return list;
@@ -151,67 +175,87 @@ ordered_json stations(const Findings& f) {
 
 ordered_json tears(const Findings& f) {
   ordered_json list = ordered_json::array();
-  for (std::size_t k = 0; k < f.vessel.tears.size(); ++k) {
-    const auto& tear = f.vessel.tears[k];
-    const auto flow = analysis::course(f.times, f.figures.column(analysis::column::tear(tear.name, "flow")));
-    list.push_back({{"name", tear.name},
-                    {"entry", k == f.entry_tear()},
-                    {"centre_mm", vector_mm(tear.centre)},
+  const auto& lumens = *f.lumens;
+  for (std::size_t k = 0; k < lumens.tears.size(); ++k) {
+    const auto& tear = lumens.tears[k];
+    const auto flow = analysis::course(lumens.times, tear.flow);
+    list.push_back({{"name", tear.place.name},
+                    {"entry", k == lumens.entry()},
+                    {"centre_mm", vector_mm(tear.place.centre)},
                     {"distance_mm", tear.distance / unit::mm},
-                    {"area_mm2", tear.area / unit::mm2},
+                    {"area_mm2", tear.place.area / unit::mm2},
                     {"volume_into_false_lumen_ml", flow.forward / unit::ml},
                     {"volume_out_of_false_lumen_ml", flow.backward / unit::ml},
                     {"flow_into_false_lumen",
                      {{"mean_ml_s", flow.mean / unit::ml},
                       {"largest_ml_s", flow.largest / unit::ml},
                       {"smallest_ml_s", flow.smallest / unit::ml}}}});
+    mark(list.back(), f, {tear.place.name});
   }
   return list;
 }
 
+/// Its balance and its ejection fraction are those of its tears, too.
+std::vector<std::string> parts_of_false_lumen(const LumenFlows& lumens) {
+  std::vector<std::string> parts{part_of_lumen(1)};
+  for (const auto& tear : lumens.tears) parts.push_back(tear.place.name);
+  return parts;
+}
+
+ordered_json mass_balance(const LumenFlows& lumens) {
+  double largest_flow = 0, largest_rest = 0, squares = 0, largest_leakage = 0;
+  for (const double leakage : lumens.leakage) largest_leakage = std::max(largest_leakage, std::abs(leakage));
+  const auto weights = analysis::trapezoid_weights(lumens.times);
+  const auto rest = lumens.residual();
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    largest_rest = std::max(largest_rest, std::abs(rest[k]));
+    squares += weights[k] * rest[k] * rest[k];
+    for (const auto& tear : lumens.tears) largest_flow = std::max(largest_flow, std::abs(tear.flow[k]));
+  }
+  return {{"largest_flow_through_a_tear_ml_s", largest_flow / unit::ml},
+          {"largest_wall_leakage_ml_s", largest_leakage / unit::ml},
+          {"largest_residual_ml_s", largest_rest / unit::ml},
+          {"rms_residual_ml_s", std::sqrt(squares / (lumens.times.back() - lumens.times.front())) / unit::ml},
+          {"largest_residual_of_largest_flow", largest_rest / largest_flow}};
+}
+
+ordered_json course_ml(const analysis::Course& c) {
+  return {{"mean_ml", c.mean / unit::ml}, {"largest_ml", c.largest / unit::ml}, {"smallest_ml", c.smallest / unit::ml}};
+}
+
 ordered_json false_lumen(const Findings& f) {
-  const auto volume = analysis::course(f.times, f.figures.column(analysis::column::false_volume));
-  ordered_json report = {{"volume",
-                          {{"mean_ml", volume.mean / unit::ml},
-                           {"largest_ml", volume.largest / unit::ml},
-                           {"smallest_ml", volume.smallest / unit::ml}}},
+  const auto& lumens = *f.lumens;
+  const auto rate = analysis::course(lumens.times, lumens.volume_rate);
+  ordered_json report = {{"flows_from", lumens.source == LumenFlows::Source::run ? "run" : "cuts"},
+                         {"volume", course_ml(analysis::course(lumens.times, lumens.volume))},
+                         {"dV_dt",
+                          {{"mean_ml_s", rate.mean / unit::ml},
+                           {"largest_ml_s", rate.largest / unit::ml},
+                           {"smallest_ml_s", rate.smallest / unit::ml}}},
                          {"openings", ordered_json::array()}};
   for (const auto& o : f.vessel.openings)
     if (o.in_false_lumen) report["openings"].push_back(o.name);
-  if (f.vessel.tears.empty()) return report;
-  const auto& entry = f.vessel.tears[f.entry_tear()];
-  const auto flow = analysis::course(f.times, f.figures.column(analysis::column::tear(entry.name, "flow")));
-  report["entry_tear"] = entry.name;
+  mark(report, f, parts_of_false_lumen(lumens));
+  if (lumens.tears.empty()) return report;
+  const auto& entry = lumens.tears[lumens.entry()];
+  const auto flow = analysis::course(lumens.times, entry.flow);
+  report["entry_tear"] = entry.place.name;
   report["ejection_fraction"] = flow.backward / flow.forward;
-  // Eq. (10.6): what goes in, less what goes out, less what stays.
-  const auto in = f.flow_through_tears(), out = f.flow_out_of_false_lumen(),
-             rate = f.figures.column(analysis::column::false_volume_rate);
-  std::vector<double> rest;
-  double largest_flow = 0, largest_rest = 0, squares = 0;
-  const auto weights = analysis::trapezoid_weights(f.times);
-  for (std::size_t k = 0; k < in.size(); ++k) {
-    rest.push_back(in[k] - out[k] - rate[k]);
-    largest_rest = std::max(largest_rest, std::abs(rest.back()));
-    squares += weights[k] * rest.back() * rest.back();
-    for (const auto& tear : f.vessel.tears)
-      largest_flow = std::max(largest_flow, std::abs(f.figures.column(analysis::column::tear(tear.name, "flow"))[k]));
-  }
-  report["mass_balance"] = {{"largest_flow_through_a_tear_ml_s", largest_flow / unit::ml},
-                            {"largest_residual_ml_s", largest_rest / unit::ml},
-                            {"rms_residual_ml_s", std::sqrt(squares / (f.window.until - f.window.from)) / unit::ml},
-                            {"largest_residual_of_largest_flow", largest_rest / largest_flow}};
+  report["mass_balance"] = mass_balance(lumens);
   return report;
 }
 
 ordered_json flap(const Findings& f) {
   const auto mean = analysis::course(f.times, f.figures.column(analysis::column::flap_mean)),
              largest = analysis::course(f.times, f.figures.column(analysis::column::flap_largest));
-  return {{"region", f.settings.flap},
-          {"relative_to_s", f.times.front()},
-          {"largest_displacement_mm", largest.largest / unit::mm},
-          {"time_of_largest_s", largest.time_of_largest},
-          {"largest_mean_displacement_mm", mean.largest / unit::mm},
-          {"mean_displacement_over_the_cycle_mm", mean.mean / unit::mm}};
+  ordered_json report = {{"region", f.settings.flap},
+                         {"relative_to_s", f.times.front()},
+                         {"largest_displacement_mm", largest.largest / unit::mm},
+                         {"time_of_largest_s", largest.time_of_largest},
+                         {"largest_mean_displacement_mm", mean.largest / unit::mm},
+                         {"mean_displacement_over_the_cycle_mm", mean.mean / unit::mm}};
+  mark(report, f);
+  return report;
 }
 
 }  // namespace
@@ -227,12 +271,13 @@ ordered_json report_json(const Findings& f) {
       {"left_out", ordered_json::array()},
       {"warnings", f.warnings}};
   for (const auto& part : f.left_out) report["left_out"].push_back({{"part", part.part}, {"why", part.why}});
+  if (f.dissipation) report["numerical_dissipation"] = to_json(*f.dissipation);
   if (!f.openings.empty()) report["openings"] = openings(f);
   if (!f.vessel.inside.empty()) report["wall_shear"] = wall_shear(f);
   if (!f.frames.stresses().empty()) report["stress"] = stresses(f);
   if (f.has_stations()) report["stations"] = stations(f);
-  if (!f.vessel.tears.empty()) report["tears"] = tears(f);
-  if (!f.vessel.side.empty()) report["false_lumen"] = false_lumen(f);
+  if (f.lumens && !f.lumens->tears.empty()) report["tears"] = tears(f);
+  if (f.lumens) report["false_lumen"] = false_lumen(f);
   if (f.has_flap()) report["flap"] = flap(f);
   return report;
 }

@@ -87,10 +87,9 @@ class Plots {
   void tears() {
     std::vector<drawing::Series> series;
     std::vector<std::pair<double, std::size_t>> by_flow;
-    for (const auto& tear : f_.vessel.tears) {
-      series.push_back({.name = tear.name,
-                        .x = f_.times,
-                        .y = scaled(f_.figures.column(analysis::column::tear(tear.name, "flow")), unit::ml)});
+    const auto& lumens = *f_.lumens;
+    for (const auto& tear : lumens.tears) {
+      series.push_back({.name = tear.place.name, .x = lumens.times, .y = scaled(tear.flow, unit::ml)});
       double largest = 0;
       for (const double flow : series.back().y) largest = std::max(largest, std::abs(flow));
       by_flow.emplace_back(largest, by_flow.size());
@@ -101,10 +100,10 @@ class Plots {
       by_flow.erase(by_flow.begin());
     }
     std::erase_if(series, [](const drawing::Series& curve) { return curve.y.empty(); });
-    series.push_back({.name = "out by openings", .x = f_.times, .y = scaled(f_.flow_out_of_false_lumen(), unit::ml)});
+    series.push_back({.name = "out by openings", .x = lumens.times, .y = scaled(lumens.outflow, unit::ml)});
     series.push_back({.name = "dV/dt of the false lumen",
-                      .x = f_.times,
-                      .y = scaled(f_.figures.column(analysis::column::false_volume_rate), unit::ml),
+                      .x = lumens.times,
+                      .y = scaled(lumens.volume_rate, unit::ml),
                       .dashed = true});
     write("tears.svg", series, "Flow through the tears into the false lumen", "time [s]", "flow [ml/s]");
   }
@@ -156,7 +155,7 @@ std::vector<std::string> write_plots(const Findings& f, const std::filesystem::p
     plots.along("flow.svg", "flow", "Flow along the aorta, downstream", "flow [ml/s]", unit::ml);
     plots.pressure_difference();
   }
-  if (!f.vessel.tears.empty()) plots.tears();
+  if (f.lumens && !f.lumens->tears.empty()) plots.tears();
   if (f.has_flap()) plots.flap();
   if (!f.frames.stresses().empty()) plots.stress();
   return plots.files;

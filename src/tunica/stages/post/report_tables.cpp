@@ -41,16 +41,22 @@ Table table_in_time(const Findings& f) {
   return table;
 }
 
-Table tears(const Findings& f) {
+Table tears(const LumenFlows& lumens) {
+  Table table;
+  table.add("time [s]", lumens.times);
+  for (const auto& tear : lumens.tears) table.add(tear.place.name + " flow [ml/s]", tear.flow, unit::ml);
+  table.add("out of false lumen by its openings [ml/s]", lumens.outflow, unit::ml);
+  table.add("through the wall of the false lumen [ml/s]", lumens.leakage, unit::ml);
+  table.add("false lumen dV/dt [ml/s]", lumens.volume_rate, unit::ml);
+  table.add("false lumen volume [ml]", lumens.volume, unit::ml);
+  table.add("true lumen volume [ml]", lumens.true_volume, unit::ml);
+  return table;
+}
+
+Table tear_areas(const Findings& f) {
   Table table = table_in_time(f);
-  for (const auto& tear : f.vessel.tears) {
-    table.add(tear.name + " flow [ml/s]", f.figures.column(analysis::column::tear(tear.name, "flow")), unit::ml);
+  for (const auto& tear : f.vessel.tears)
     table.add(tear.name + " area [mm^2]", f.figures.column(analysis::column::tear(tear.name, "area")), unit::mm2);
-  }
-  table.add("out of false lumen by its openings [ml/s]", f.flow_out_of_false_lumen(), unit::ml);
-  table.add("false lumen dV/dt [ml/s]", f.figures.column(analysis::column::false_volume_rate), unit::ml);
-  table.add("false lumen volume [ml]", f.figures.column(analysis::column::false_volume), unit::ml);
-  table.add("true lumen volume [ml]", f.figures.column(analysis::column::true_volume), unit::ml);
   return table;
 }
 
@@ -144,7 +150,8 @@ std::vector<std::string> write_tables(const Findings& f, const std::filesystem::
     }
     if (!f.vessel.side.empty()) write("pressure_difference.csv", pressure_difference(f));
   }
-  if (!f.vessel.side.empty()) write("tears.csv", tears(f));
+  if (f.lumens) write("tears.csv", tears(*f.lumens));
+  if (!f.vessel.tears.empty()) write("tear_areas.csv", tear_areas(f));
   if (f.has_flap()) {
     Table table = table_in_time(f);
     table.add("mean displacement [mm]", f.figures.column(analysis::column::flap_mean), unit::mm);

@@ -46,7 +46,8 @@ std::string stress_text(const ordered_json& r) {
 std::string lumens_text(const ordered_json& r) {
   std::string text;
   if (r.contains("tears")) {
-    text += "\ntears: volume into and out of the false lumen over the window\n";
+    text += fmt::format("\ntears: volume into and out of the false lumen over the window{}\n",
+                        r["false_lumen"]["flows_from"] == "cuts" ? ", by cuts" : "");
     for (const auto& t : r["tears"])
       text += fmt::format("  {:<10} at {} mm  area {} mm2  in {} ml  out {} ml{}\n", t["name"].get<std::string>(),
                           number(t["distance_mm"], 6, 1), number(t["area_mm2"], 7, 1),
@@ -55,7 +56,7 @@ std::string lumens_text(const ordered_json& r) {
     const auto& f = r["false_lumen"];
     text += fmt::format("  ejection fraction of the false lumen {}; mass balance closed to {} % of the largest flow\n",
                         number(f["ejection_fraction"], 0, 3),
-                        number(100 * f["mass_balance"]["largest_residual_of_largest_flow"].get<double>(), 0, 2));
+                        number(100 * f["mass_balance"]["largest_residual_of_largest_flow"].get<double>(), 0, 4));
   }
   double least = 0, most = 0;
   bool any = false;

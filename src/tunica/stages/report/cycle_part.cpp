@@ -21,7 +21,10 @@ std::string list_table(const json& list, const Columns& columns) {
   for (const auto& [heading, path] : columns) head.push_back(heading);
   for (const auto& entry : list) {
     auto& cells = rows.emplace_back();
-    for (const auto& [heading, path] : columns) cells.push_back(figure(at(entry, path)));
+    for (const auto& [heading, path] : columns) {
+      const json value = at(entry, path);
+      cells.push_back(figure(value) + (value.is_number() ? mark(entry) : ""));
+    }
   }
   return drawing::page::table(head, rows);
 }
@@ -41,7 +44,12 @@ std::string openings(const json& post) {
 
 std::string tears(const json& post) {
   if (!post.contains("tears")) return "";
-  std::string text = "<h3>Tears and false lumen</h3>\n" +
+  const json from = at(post, "false_lumen/flows_from");
+  std::string text = std::string("<h3>Tears and false lumen</h3>\n") +
+                     (from == "run" ? ""
+                                    : missing("By cuts through the fields",
+                                              "flows and balance miss mass by several "
+                                              "per cent, since the run has not written those that it conserves")) +
                      list_table(post["tears"], {{"tear", "name"},
                                                 {"entry", "entry"},
                                                 {"from the inlet [mm]", "distance_mm"},
@@ -52,15 +60,15 @@ std::string tears(const json& post) {
                                                 {"largest", "flow_into_false_lumen/largest_ml_s"},
                                                 {"smallest", "flow_into_false_lumen/smallest_ml_s"}});
   const json lumen = at(post, "false_lumen");
-  return text + drawing::page::table({"false lumen", ""},
-                                     {{"ejection fraction (0 to 1)", figure(at(lumen, "ejection_fraction"))},
-                                      {"mean volume [ml]", figure(at(lumen, "volume/mean_ml"))},
-                                      {"largest volume [ml]", figure(at(lumen, "volume/largest_ml"))},
-                                      {"smallest volume [ml]", figure(at(lumen, "volume/smallest_ml"))},
-                                      {"largest residual of its mass balance [ml/s]",
-                                       figure(at(lumen, "mass_balance/largest_residual_ml_s"))},
-                                      {"the same, of the largest flow through a tear",
-                                       figure(at(lumen, "mass_balance/largest_residual_of_largest_flow"))}});
+  const auto value = [&](const char* path) { return figure(at(lumen, path)) + mark(lumen); };
+  return text + drawing::page::table({"false lumen", ""}, {{"ejection fraction (0 to 1)", value("ejection_fraction")},
+                                                           {"mean volume [ml]", value("volume/mean_ml")},
+                                                           {"largest volume [ml]", value("volume/largest_ml")},
+                                                           {"smallest volume [ml]", value("volume/smallest_ml")},
+                                                           {"largest residual of its mass balance [ml/s]",
+                                                            value("mass_balance/largest_residual_ml_s")},
+                                                           {"the same, of the largest flow through a tear",
+                                                            value("mass_balance/largest_residual_of_largest_flow")}});
 }
 
 std::string flap(const json& post) {
@@ -69,10 +77,10 @@ std::string flap(const json& post) {
   return "<h3>Flap</h3>\n" +
          drawing::page::table(
              {"displacement since the start of the window", ""},
-             {{"largest [mm]", figure(at(f, "largest_displacement_mm"))},
-              {"at [s]", figure(at(f, "time_of_largest_s"))},
-              {"largest mean over the flap [mm]", figure(at(f, "largest_mean_displacement_mm"))},
-              {"mean over flap and cycle [mm]", figure(at(f, "mean_displacement_over_the_cycle_mm"))}});
+             {{"largest [mm]", figure(at(f, "largest_displacement_mm")) + mark(f)},
+              {"at [s]", figure(at(f, "time_of_largest_s")) + mark(f)},
+              {"largest mean over the flap [mm]", figure(at(f, "largest_mean_displacement_mm")) + mark(f)},
+              {"mean over flap and cycle [mm]", figure(at(f, "mean_displacement_over_the_cycle_mm")) + mark(f)}});
 }
 
 std::string wall_shear(const json& post) {
@@ -82,7 +90,7 @@ std::string wall_shear(const json& post) {
   for (const auto& [name, key] : {std::pair{"TAWSS [Pa]", "tawss_Pa"}, {"OSI", "osi"}, {"RRT [1/Pa]", "rrt_1_Pa"}}) {
     auto& cells = rows.emplace_back(std::vector<std::string>{name});
     for (const char* share : {"mean", "p5", "p50", "p95", "p99"})
-      cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))));
+      cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))) + mark(shear));
   }
   return "<h3>Wall shear</h3>\n" +
          drawing::page::table({"by area of the wall", "mean", "5 %", "median", "95 %", "99 %"}, rows);
@@ -110,7 +118,7 @@ std::string stress(const json& post) {
            {std::pair{"at_peak", "at peak pressure"}, {"cycle_maximum", "largest of the cycle"}})
         for (const auto& [percent, value] : values[when].items()) {
           head.push_back(fmt::format("{}, {}", label, percent == "mean" ? "mean" : percent.substr(1) + " %"));
-          cells.push_back(figure(value));
+          cells.push_back(figure(value) + mark(region));
         }
       rows.push_back(cells);
     }
@@ -136,6 +144,13 @@ std::string difference(const json& post) {
          "</details>\n";
 }
 
+/// Mark of a drawing: that of the figures in it.
+std::string any_mark(const json& list) {
+  for (const auto& entry : list)
+    if (const auto m = mark(entry); !m.empty()) return m;
+  return "";
+}
+
 }  // namespace
 
 std::string cycle_part(const Results& r) {
@@ -147,20 +162,24 @@ std::string cycle_part(const Results& r) {
                       figure(at(r.post, "window/fields")), figure(at(r.post, "peak_s")));
   for (const auto& left : at(r.post, "left_out")) text += missing(left.value("part", ""), left.value("why", ""));
   for (const auto& warning : at(r.post, "warnings")) text += missing("Warning", warning.get<std::string>());
+  if (const json d = at(r.post, "numerical_dissipation"); !d.is_null()) text += dissipation_table(d);
   const auto folder = r.folder("post");
+  const std::string of_openings = any_mark(at(r.post, "openings")), of_stations = any_mark(at(r.post, "stations")),
+                    of_tears = any_mark(at(r.post, "tears"));
   return text + openings(r.post) +
-         drawings(folder, {{"openings_pressure.svg", "Pressure at the openings"},
-                           {"openings_flow.svg", "Flow out of the openings"}}) +
+         drawings(folder, {{"openings_pressure.svg", "Pressure at the openings" + of_openings},
+                           {"openings_flow.svg", "Flow out of the openings" + of_openings}}) +
          difference(r.post) +
-         drawings(folder,
-                  {{"pressure_difference.svg", "Pressure of the true less that of the false lumen, along the aorta"},
-                   {"pressure_difference_in_time.svg", "The same in time"},
-                   {"pressure.svg", "Pressure along the aorta"},
-                   {"area.svg", "Area of the lumens along the aorta"},
-                   {"flow.svg", "Flow along the aorta"}}) +
-         tears(r.post) + drawings(folder, {{"tears.svg", "Flow through the tears into the false lumen"}}) +
-         flap(r.post) + drawings(folder, {{"flap.svg", "Displacement of the flap"}}) + wall_shear(r.post) +
-         stress(r.post) + drawings(folder, {{"stress.svg", "Stress in the wall over time"}});
+         drawings(folder, {{"pressure_difference.svg",
+                            "Pressure of the true less that of the false lumen, along the aorta" + of_stations},
+                           {"pressure_difference_in_time.svg", "The same in time" + of_stations},
+                           {"pressure.svg", "Pressure along the aorta" + of_stations},
+                           {"area.svg", "Area of the lumens along the aorta" + of_stations},
+                           {"flow.svg", "Flow along the aorta" + of_stations}}) +
+         tears(r.post) + drawings(folder, {{"tears.svg", "Flow through the tears into the false lumen" + of_tears}}) +
+         flap(r.post) + drawings(folder, {{"flap.svg", "Displacement of the flap" + mark(at(r.post, "flap"))}}) +
+         wall_shear(r.post) + stress(r.post) +
+         drawings(folder, {{"stress.svg", "Stress in the wall over time" + any_mark(at(r.post, "stress"))}});
 }
 
 }  // namespace tunica::stages::report

@@ -27,6 +27,12 @@ Results read_results(const ReportCase& report);
 
 /// A number with so many significant digits; "–" for null.
 std::string figure(const json& value, int digits = 4);
+/// Stands after a figure of post.json that lies where the scheme disturbs the flow; `of`: the object that holds it.
+std::string mark(const json& of);
+/// What the scheme takes from the flow, {limit, from_s, until_s, parts} of artifacts/dissipation.hpp, as a table, with
+/// a warning and the meaning of the mark where it is too much.
+std::string dissipation_table(const json& dissipation);
+
 /// A line that says what the page lacks, and why.
 std::string missing(const std::string& what, const std::string& why);
 /// Drawings (.svg) of a folder with a line below each; nothing for those that are not there.

@@ -177,6 +177,8 @@ std::string pictures_part(const Results& r, const files::Say& say) {
   std::string text = "<h2 id=\"pictures\">Pictures</h2>\n";
   if (!r.report.settings.pictures) return text + missing("Pictures", "not wanted (`pictures: false`)");
   const Scene scene = scene_of(r);
+  if (const json shear = r.post.is_object() ? r.post.value("wall_shear", json()) : json(); !mark(shear).empty())
+    text += missing("Pictures of the flow" + mark(shear), "the warning at the figures of the cycle holds for them");
   if (scene.lumen.empty() && scene.wall.empty()) return text + missing("Pictures", "there are no fields of a run");
   std::error_code ignored;
   fs::create_directories(r.report.output, ignored);

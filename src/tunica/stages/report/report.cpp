@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "tunica/artifacts/dissipation.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/files/lock.hpp"
@@ -127,6 +128,22 @@ std::string figure(const json& value, int digits) {
   if (value.is_number_integer()) return value.dump();
   if (!value.is_number() || !std::isfinite(value.get<double>())) return "–";
   return fmt::format("{:.{}g}", value.get<double>(), digits);
+}
+
+std::string mark(const json& of) { return of.is_object() && of.contains("numerically_dissipated_in") ? " †" : ""; }
+
+std::string dissipation_table(const json& dissipation) {
+  const auto d = artifacts::dissipation_from_json(dissipation);
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& p : d.parts)
+    rows.push_back({drawing::page::escaped(p.part) + (p.above_limit() ? " †" : ""), fmt::format("{:.4g}", p.viscous),
+                    fmt::format("{:.4g}", p.numerical), fmt::format("{:.3g}", p.ratio())});
+  std::string text = drawing::page::table({fmt::format("dissipation from {:.6g} s to {:.6g} s", d.from, d.until),
+                                           "by viscosity [J]", "by the scheme [J]", "ratio"},
+                                          rows);
+  if (const auto warning = warning_of(d))
+    text += missing("Warning", *warning + ". Figures that lie there bear the mark †");
+  return text;
 }
 
 std::string missing(const std::string& what, const std::string& why) {

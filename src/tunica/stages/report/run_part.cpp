@@ -104,7 +104,10 @@ std::string runs(const json& manifest) {
                     figure(run.value("rejected_steps", json())), figure(run.value("ranks", json())),
                     figure(run.contains("seconds") ? run["seconds"].value("total", json()) : json()),
                     figure(run.value("peak_memory [MB]", json()), 3)});
-  return drawing::page::table({"run", "to step", "steps rejected", "ranks", "seconds", "memory [MB]"}, rows);
+  const json& last = manifest.at("runs").back();
+  const std::string dissipation = last.contains("dissipation") ? dissipation_table(last["dissipation"]) : "";
+  return drawing::page::table({"run", "to step", "steps rejected", "ranks", "seconds", "memory [MB]"}, rows) +
+         dissipation;
 }
 
 }  // namespace
@@ -113,8 +116,11 @@ std::string run_part(const Results& r) {
   std::string text = "<h2 id=\"run\">Run</h2>\n";
   const fs::path folder = r.folder("run");
   if (r.manifest.is_null()) return text + missing("The run", "it is not done");
-  text += runs(r.manifest) + balance(folder);
   const bool has_faces = fs::exists(folder / "faces.csv");
+  text += runs(r.manifest);
+  if (has_faces && !r.manifest.at("runs").back().contains("dissipation"))
+    text += missing("Numerical over viscous dissipation", "the run has not ended, or its version did not tell it");
+  text += balance(folder);
   if (has_faces && r.post.is_null()) {
     const files::CsvColumns faces = files::read_csv(folder / "faces.csv", remedy, files::Gaps::allowed);
     text += gaps(faces) + curves(faces, "pressure", "Mean pressure at the openings") +

@@ -80,6 +80,11 @@ class Run {
   }
   /// At the end of a cycle: does it repeat the one before? `anew`: it has just been computed.
   bool finish_cycle(bool anew);
+  /// Logs what the scheme takes from the flow in steps that end within (from, until] [s], and keeps it for the
+  /// manifest.
+  void tell_dissipation(double from, double until);
+  /// Of the run, where no cycle has told it: the last full cycle, or all steps where there is none.
+  void tell_dissipation_of_run();
   void rejected(const StepReport& report);
   void write_fields();
   void save();
@@ -123,6 +128,7 @@ class Run {
   std::int64_t checkpoint_state_ = -1;  ///< accepted steps in the last checkpoint
   bool state_is_whole_ = true;          ///< the state belongs to one instant, and the histories reach up to it
   std::optional<parallel::Progress> bar_;
+  bool told_dissipation_ = false;
 };
 
 Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen)
@@ -418,7 +424,30 @@ bool Run::finish_cycle(bool anew) {
     log_->info(describe(change, settings));
   else
     log_->warning(describe(change, settings));
+  tell_dissipation((cycle - 1) * settings.period, cycle * settings.period);
   return periodic;
+}
+
+void Run::tell_dissipation(double from, double until) {
+  if (!case_.solves_fluid()) return;
+  told_dissipation_ = true;
+  on_disk([&] {
+    parallel::on_root(comm_, [&] {
+      progress_.dissipation = artifacts::read_dissipation(folder_, from, until);
+      if (!progress_.dissipation) return;
+      log_->info(artifacts::describe(*progress_.dissipation));
+      if (const auto warning = artifacts::warning_of(*progress_.dissipation)) log_->warning(*warning);
+    });
+  });
+}
+
+void Run::tell_dissipation_of_run() {
+  if (is_static() || told_dissipation_) return;
+  const auto per_cycle = case_.time->cycles ? case_.time->steps_per_cycle() : 0;
+  const auto cycle = per_cycle > 0 ? grid_.steps_done() / per_cycle : 0;
+  if (cycle == 0) return tell_dissipation(-HUGE_VAL, grid_.time());
+  const double period = case_.time->cycles->period;
+  tell_dissipation(static_cast<double>(cycle - 1) * period, static_cast<double>(cycle) * period);
 }
 
 void Run::write_fields() {
@@ -537,6 +566,7 @@ RunOutcome Run::compute() {
     log_->info(periodic
                    ? std::string("nothing to do: the run is periodic")
                    : fmt::format("nothing to do: {} of {} are completed", grid_.steps_done(), plural(end, "step")));
+    tell_dissipation_of_run();
     record("completed", "");
     return {.signal = 0, .steps = grid_.steps_done()};
   }
@@ -561,6 +591,7 @@ RunOutcome Run::compute() {
   bar_.reset();
   if (outcome.signal == 0) write_fields();
   save();
+  tell_dissipation_of_run();
   outcome.steps = grid_.steps_done();
   record(outcome.signal == 0 ? "completed" : "stopped",
          outcome.signal == 0 ? (periodic ? "periodic" : "") : fmt::format("signal {}", outcome.signal));

@@ -1,0 +1,49 @@
+// The page of `tunica report`; that of a whole case is in the regression tests of the commands.
+#include "tunica/stages/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include "shared_folder.hpp"
+
+namespace tunica::stages {
+namespace {
+
+using test::SharedFolder;
+
+constexpr const char* dissipation =
+    R"({"limit": 0.5, "from_s": 0, "until_s": 1, "parts": [
+        {"part": "true lumen", "viscous_J": 2, "numerical_J": 0.5, "ratio": 0.25, "above_limit": false},
+        {"part": "tear_1", "viscous_J": 2, "numerical_J": 3, "ratio": 1.5, "above_limit": true}]})";
+
+std::string page_of(const SharedFolder& folder, const std::string& post) {
+  folder.write("post.json", post);
+  ReportCase c;
+  c.case_file = folder.write("case.yaml", "{}");
+  c.stages["post"] = folder.path();
+  c.settings.pictures = false;
+  c.output = folder.path();
+  return test::slurp(report_to_file(c, {"1", "abc"}, true, [](const std::string&) {}));
+}
+
+std::string post_json(const std::string& of_tear_1) {
+  return std::string(R"({"numerical_dissipation": )") + dissipation + R"(, "tears": [
+      {"name": "tear_1", "area_mm2": 12.25)" +
+         of_tear_1 + R"(}, {"name": "tear_2", "area_mm2": 13.75}], "wall_shear": {"tawss_Pa": {"mean": 1.125})" +
+         of_tear_1 + "}}";
+}
+
+TEST(Report, MarksFiguresWhereTheSchemeDisturbsTheFlow) {
+  const SharedFolder folder(MPI_COMM_SELF);
+  const std::string page = page_of(folder, post_json(R"(, "numerically_dissipated_in": ["tear_1"])"));
+  for (const char* marked :
+       {"<td>12.25 †</td>", "<td>1.125 †</td>", "<td>tear_1 †</td>", "1.5 times in: tear_1", "bear the mark †"})
+    EXPECT_NE(page.find(marked), std::string::npos) << marked;
+  EXPECT_NE(page.find("<td>13.75</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>true lumen</td>"), std::string::npos);
+
+  const std::string unmarked = page_of(folder, post_json(""));
+  EXPECT_NE(unmarked.find("<td>12.25</td>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tunica::stages
