@@ -178,6 +178,8 @@ Document report_document(const Chain& chain, const fs::path& folder) {
   const bool pictures = chain.settings.report.value_or(case_file::ReportSettings{}).pictures;
   document.set("pictures", pictures ? "true" : "false");
   document.set("length_unit", chain.settings.output.units.length);
+  if (const fs::path bands = chain.output / "converge/converge.json"; fs::exists(bands))
+    document.set("convergence", path_to(bands, folder));
   document.set("output", ".");
   return document;
 }

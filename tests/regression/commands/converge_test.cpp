@@ -38,6 +38,7 @@ TEST_F(ConvergeCommand, GivesEveryFigureABandAndTakesItAgain) {
               1e-9 * value);
   EXPECT_TRUE(fs::exists(folder_ / "out/converge/converge.html"));
   EXPECT_NE(read("out/converge/converge.csv").find("openings/lumen_inlet/pressure/mean_mmHg"), std::string::npos);
+  EXPECT_NE(read("out/report/report.html").find(" ± "), std::string::npos);
   // The computations are taken as they are.
   const auto made = fs::last_write_time(folder_ / "out/converge/mesh_2/run/manifest.json");
   ASSERT_EQ(tunica("converge case.yaml --ratio 1.5 --quantity 'openings/*/pressure/mean_mmHg'"), 0) << printed();

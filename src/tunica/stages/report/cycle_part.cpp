@@ -15,34 +15,43 @@ json at(const json& object, const std::string& path) {
 
 using Columns = std::vector<std::pair<std::string, std::string>>;  ///< heading, path
 
-std::string list_table(const json& list, const Columns& columns) {
+/// `path`: of the list in post.json; entries without `needed` are left out.
+std::string list_table(const Results& r, const std::string& path, const Columns& columns,
+                       const std::string& needed = "") {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [heading, path] : columns) head.push_back(heading);
-  for (const auto& entry : list) {
+  for (const auto& [heading, below] : columns) head.push_back(heading);
+  const json list = at(r.post, path);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (!needed.empty() && !at(list[k], needed).is_object()) continue;
     auto& cells = rows.emplace_back();
-    for (const auto& [heading, path] : columns) {
-      const json value = at(entry, path);
-      cells.push_back(figure(value) + (value.is_number() ? mark(entry) : ""));
+    const std::string name = list[k].value("name", std::to_string(k + 1));
+    for (const auto& [heading, below] : columns) {
+      const json value = at(list[k], below);
+      cells.push_back(figure(value) +
+                      (value.is_number() ? band(r, fmt::format("{}/{}/{}", path, name, below)) + mark(list[k]) : ""));
     }
   }
   return drawing::page::table(head, rows);
 }
 
-std::string openings(const json& post) {
+std::string openings(const Results& r) {
+  const json& post = r.post;
   if (!post.contains("openings")) return "";
-  return "<h3>Openings</h3>\n" + list_table(post["openings"], {{"opening", "name"},
-                                                               {"lumen", "lumen"},
-                                                               {"systolic [mmHg]", "pressure/systolic_mmHg"},
-                                                               {"diastolic [mmHg]", "pressure/diastolic_mmHg"},
-                                                               {"mean [mmHg]", "pressure/mean_mmHg"},
-                                                               {"mean outward flow [ml/s]", "flow_outwards/mean_ml_s"},
-                                                               {"largest", "flow_outwards/largest_ml_s"},
-                                                               {"smallest", "flow_outwards/smallest_ml_s"},
-                                                               {"share of the outflow", "share_of_outflow"}});
+  return "<h3>Openings</h3>\n" + list_table(r, "openings",
+                                            {{"opening", "name"},
+                                             {"lumen", "lumen"},
+                                             {"systolic [mmHg]", "pressure/systolic_mmHg"},
+                                             {"diastolic [mmHg]", "pressure/diastolic_mmHg"},
+                                             {"mean [mmHg]", "pressure/mean_mmHg"},
+                                             {"mean outward flow [ml/s]", "flow_outwards/mean_ml_s"},
+                                             {"largest", "flow_outwards/largest_ml_s"},
+                                             {"smallest", "flow_outwards/smallest_ml_s"},
+                                             {"share of the outflow", "share_of_outflow"}});
 }
 
-std::string tears(const json& post) {
+std::string tears(const Results& r) {
+  const json& post = r.post;
   if (!post.contains("tears")) return "";
   const json from = at(post, "false_lumen/flows_from");
   std::string text = std::string("<h3>Tears and false lumen</h3>\n") +
@@ -50,17 +59,20 @@ std::string tears(const json& post) {
                                     : missing("By cuts through the fields",
                                               "flows and balance miss mass by several "
                                               "per cent, since the run has not written those that it conserves")) +
-                     list_table(post["tears"], {{"tear", "name"},
-                                                {"entry", "entry"},
-                                                {"from the inlet [mm]", "distance_mm"},
-                                                {"area [mm²]", "area_mm2"},
-                                                {"into the false lumen [ml]", "volume_into_false_lumen_ml"},
-                                                {"out of it [ml]", "volume_out_of_false_lumen_ml"},
-                                                {"mean flow into it [ml/s]", "flow_into_false_lumen/mean_ml_s"},
-                                                {"largest", "flow_into_false_lumen/largest_ml_s"},
-                                                {"smallest", "flow_into_false_lumen/smallest_ml_s"}});
+                     list_table(r, "tears",
+                                {{"tear", "name"},
+                                 {"entry", "entry"},
+                                 {"from the inlet [mm]", "distance_mm"},
+                                 {"area [mm²]", "area_mm2"},
+                                 {"into the false lumen [ml]", "volume_into_false_lumen_ml"},
+                                 {"out of it [ml]", "volume_out_of_false_lumen_ml"},
+                                 {"mean flow into it [ml/s]", "flow_into_false_lumen/mean_ml_s"},
+                                 {"largest", "flow_into_false_lumen/largest_ml_s"},
+                                 {"smallest", "flow_into_false_lumen/smallest_ml_s"}});
   const json lumen = at(post, "false_lumen");
-  const auto value = [&](const char* path) { return figure(at(lumen, path)) + mark(lumen); };
+  const auto value = [&](const char* path) {
+    return figure(at(lumen, path)) + band(r, fmt::format("false_lumen/{}", path)) + mark(lumen);
+  };
   return text + drawing::page::table({"false lumen", ""}, {{"ejection fraction (0 to 1)", value("ejection_fraction")},
                                                            {"mean volume [ml]", value("volume/mean_ml")},
                                                            {"largest volume [ml]", value("volume/largest_ml")},
@@ -71,26 +83,31 @@ std::string tears(const json& post) {
                                                             value("mass_balance/largest_residual_of_largest_flow")}});
 }
 
-std::string flap(const json& post) {
+std::string flap(const Results& r) {
+  const json& post = r.post;
   const json f = at(post, "flap");
   if (f.is_null()) return "";
+  const auto value = [&](const char* key) {
+    return figure(at(f, key)) + band(r, fmt::format("flap/{}", key)) + mark(f);
+  };
   return "<h3>Flap</h3>\n" +
-         drawing::page::table(
-             {"displacement since the start of the window", ""},
-             {{"largest [mm]", figure(at(f, "largest_displacement_mm")) + mark(f)},
-              {"at [s]", figure(at(f, "time_of_largest_s")) + mark(f)},
-              {"largest mean over the flap [mm]", figure(at(f, "largest_mean_displacement_mm")) + mark(f)},
-              {"mean over flap and cycle [mm]", figure(at(f, "mean_displacement_over_the_cycle_mm")) + mark(f)}});
+         drawing::page::table({"displacement since the start of the window", ""},
+                              {{"largest [mm]", value("largest_displacement_mm")},
+                               {"at [s]", value("time_of_largest_s")},
+                               {"largest mean over the flap [mm]", value("largest_mean_displacement_mm")},
+                               {"mean over flap and cycle [mm]", value("mean_displacement_over_the_cycle_mm")}});
 }
 
-std::string wall_shear(const json& post) {
+std::string wall_shear(const Results& r) {
+  const json& post = r.post;
   const json shear = at(post, "wall_shear");
   if (shear.is_null()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, key] : {std::pair{"TAWSS [Pa]", "tawss_Pa"}, {"OSI", "osi"}, {"RRT [1/Pa]", "rrt_1_Pa"}}) {
     auto& cells = rows.emplace_back(std::vector<std::string>{name});
     for (const char* share : {"mean", "p5", "p50", "p95", "p99"})
-      cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))) + mark(shear));
+      cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))) +
+                      band(r, fmt::format("wall_shear/{}/{}", key, share)) + mark(shear));
   }
   return "<h3>Wall shear</h3>\n" +
          drawing::page::table({"by area of the wall", "mean", "5 %", "median", "95 %", "99 %"}, rows);
@@ -104,7 +121,8 @@ std::string name_of(std::string key) {
   return key;
 }
 
-std::string stress(const json& post) {
+std::string stress(const Results& r) {
+  const json& post = r.post;
   if (!post.contains("stress")) return "";
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
@@ -118,29 +136,30 @@ std::string stress(const json& post) {
            {std::pair{"at_peak", "at peak pressure"}, {"cycle_maximum", "largest of the cycle"}})
         for (const auto& [percent, value] : values[when].items()) {
           head.push_back(fmt::format("{}, {}", label, percent == "mean" ? "mean" : percent.substr(1) + " %"));
-          cells.push_back(figure(value) + mark(region));
+          cells.push_back(figure(value) +
+                          band(r, fmt::format("stress/{}/{}/{}/{}", region.value("name", ""), key, when, percent)) +
+                          mark(region));
         }
       rows.push_back(cells);
     }
   return "<h3>Stress in the wall, percentiles by volume</h3>\n" + drawing::page::table(head, rows);
 }
 
-std::string difference(const json& post) {
+std::string difference(const Results& r) {
+  const json& post = r.post;
   if (!post.contains("stations") || post["stations"].empty()) return "";
   if (!post["stations"][0].contains("true_minus_false_pressure") &&
       !post["stations"].back().contains("true_minus_false_pressure") && !post.contains("false_lumen"))
     return "";
-  json list = json::array();
-  for (const auto& station : post["stations"])
-    if (station.contains("true_minus_false_pressure") && station["true_minus_false_pressure"].is_object())
-      list.push_back(station);
   return "<h3>True less false lumen</h3>\n<details><summary>Pressure difference along the aorta</summary>\n" +
-         list_table(list, {{"from the inlet [mm]", "distance_mm"},
-                           {"mean [mmHg]", "true_minus_false_pressure/mean_mmHg"},
-                           {"largest", "true_minus_false_pressure/largest_mmHg"},
-                           {"smallest", "true_minus_false_pressure/smallest_mmHg"},
-                           {"area of the true lumen [mm²]", "true_lumen/area/mean_mm2"},
-                           {"of the false one", "false_lumen/area/mean_mm2"}}) +
+         list_table(r, "stations",
+                    {{"from the inlet [mm]", "distance_mm"},
+                     {"mean [mmHg]", "true_minus_false_pressure/mean_mmHg"},
+                     {"largest", "true_minus_false_pressure/largest_mmHg"},
+                     {"smallest", "true_minus_false_pressure/smallest_mmHg"},
+                     {"area of the true lumen [mm²]", "true_lumen/area/mean_mm2"},
+                     {"of the false one", "false_lumen/area/mean_mm2"}},
+                    "true_minus_false_pressure") +
          "</details>\n";
 }
 
@@ -162,23 +181,27 @@ std::string cycle_part(const Results& r) {
                       figure(at(r.post, "window/fields")), figure(at(r.post, "peak_s")));
   for (const auto& left : at(r.post, "left_out")) text += missing(left.value("part", ""), left.value("why", ""));
   for (const auto& warning : at(r.post, "warnings")) text += missing("Warning", warning.get<std::string>());
+  if (r.bands.is_object())
+    text += "<p>± is the error band of <code>tunica converge</code>, from finer meshes and smaller steps.</p>\n";
+  if (r.bands.is_boolean())
+    text += missing("Error bands", "those of converge/ are of other figures than these; do `tunica converge` anew");
   if (const json d = at(r.post, "numerical_dissipation"); !d.is_null()) text += dissipation_table(d);
   const auto folder = r.folder("post");
   const std::string of_openings = any_mark(at(r.post, "openings")), of_stations = any_mark(at(r.post, "stations")),
                     of_tears = any_mark(at(r.post, "tears"));
-  return text + openings(r.post) +
+  return text + openings(r) +
          drawings(folder, {{"openings_pressure.svg", "Pressure at the openings" + of_openings},
                            {"openings_flow.svg", "Flow out of the openings" + of_openings}}) +
-         difference(r.post) +
+         difference(r) +
          drawings(folder, {{"pressure_difference.svg",
                             "Pressure of the true less that of the false lumen, along the aorta" + of_stations},
                            {"pressure_difference_in_time.svg", "The same in time" + of_stations},
                            {"pressure.svg", "Pressure along the aorta" + of_stations},
                            {"area.svg", "Area of the lumens along the aorta" + of_stations},
                            {"flow.svg", "Flow along the aorta" + of_stations}}) +
-         tears(r.post) + drawings(folder, {{"tears.svg", "Flow through the tears into the false lumen" + of_tears}}) +
-         flap(r.post) + drawings(folder, {{"flap.svg", "Displacement of the flap" + mark(at(r.post, "flap"))}}) +
-         wall_shear(r.post) + stress(r.post) +
+         tears(r) + drawings(folder, {{"tears.svg", "Flow through the tears into the false lumen" + of_tears}}) +
+         flap(r) + drawings(folder, {{"flap.svg", "Displacement of the flap" + mark(at(r.post, "flap"))}}) +
+         wall_shear(r) + stress(r) +
          drawings(folder, {{"stress.svg", "Stress in the wall over time" + any_mark(at(r.post, "stress"))}});
 }
 

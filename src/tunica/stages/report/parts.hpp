@@ -19,6 +19,7 @@ struct Results {
   const ReportCase& report;
   json mesh, fibres, prestress, tuning, manifest, post;
   std::map<std::string, json> records;  ///< stage.json by the name of the stage
+  json bands;  ///< by path in post.json, of `tunica converge`; null: none, false: of other figures than these
 
   std::filesystem::path folder(const std::string& stage) const;  ///< empty when the case has no such stage
 };
@@ -27,6 +28,8 @@ Results read_results(const ReportCase& report);
 
 /// A number with so many significant digits; "–" for null.
 std::string figure(const json& value, int digits = 4);
+/// " ± 0.2" for a figure of post.json whose error band is known, lists by name; else empty.
+std::string band(const Results& r, const std::string& path);
 /// Stands after a figure of post.json that lies where the scheme disturbs the flow; `of`: the object that holds it.
 std::string mark(const json& of);
 /// What the scheme takes from the flow, {limit, from_s, until_s, parts} of artifacts/dissipation.hpp, as a table, with

@@ -8,6 +8,7 @@
 #include "tunica/artifacts/dissipation.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/page.hpp"
+#include "tunica/files/hash.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
@@ -52,7 +53,8 @@ Schema<ReportCase> ReportCase::schema() {
             "Unit of the coordinates in the fields of the run")
       .by_default()
       .path("output", &ReportCase::output, "Folder of the page, relative to that of this file")
-      .by_default("report");
+      .by_default("report")
+      .path("convergence", &ReportCase::convergence, "converge.json of the case: error bands of its figures");
 }
 
 config::Parsed<ReportCase> read_report_case(const fs::path& file) {
@@ -82,6 +84,16 @@ namespace report {
 
 namespace {
 
+/// Bands by the path of the figure, where they belong to the figures of the cycle as they are now.
+json read_bands(const json& convergence, const fs::path& post) {
+  if (convergence.is_null() || post.empty()) return nullptr;
+  const std::string text = config::read_text(post / "post.json");
+  files::Hash hash;
+  hash.add(text.data(), text.size());
+  if (convergence.value("post_hash", "") != files::hex(hash.value())) return false;
+  return convergence.value("figures", json());
+}
+
 json read_json(const fs::path& file) {
   files::refuse_other_than_file(file);
   std::ifstream stream(file);
@@ -106,7 +118,8 @@ Results read_results(const ReportCase& report) {
             .tuning = {},
             .manifest = {},
             .post = {},
-            .records = {}};
+            .records = {},
+            .bands = {}};
   const auto read = [&](const char* stage, const char* file) {
     const fs::path folder = r.folder(stage);
     return folder.empty() ? json() : read_json(folder / file);
@@ -117,6 +130,7 @@ Results read_results(const ReportCase& report) {
   r.tuning = read("outlets", "tuning.json");
   r.manifest = read("run", "manifest.json");
   r.post = read("post", "post.json");
+  if (report.convergence && !r.post.is_null()) r.bands = read_bands(read_json(*report.convergence), r.folder("post"));
   for (const auto& [stage, folder] : report.stages)
     if (auto record = read_json(folder / "stage.json"); !record.is_null()) r.records[stage] = std::move(record);
   return r;
@@ -128,6 +142,11 @@ std::string figure(const json& value, int digits) {
   if (value.is_number_integer()) return value.dump();
   if (!value.is_number() || !std::isfinite(value.get<double>())) return "–";
   return fmt::format("{:.{}g}", value.get<double>(), digits);
+}
+
+std::string band(const Results& r, const std::string& path) {
+  if (!r.bands.is_object() || !r.bands.contains(path) || !r.bands[path].value("band", json()).is_number()) return "";
+  return fmt::format(" ± {:.2g}", r.bands[path]["band"].get<double>());
 }
 
 std::string mark(const json& of) { return of.is_object() && of.contains("numerically_dissipated_in") ? " †" : ""; }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "tunica/artifacts/manifest.hpp"
@@ -20,6 +21,7 @@ struct ReportCase {
   case_file::ReportSettings settings;
   double metres_per_unit = 1e-3;  ///< of the coordinates in the fields of the run
   std::filesystem::path output;
+  std::optional<std::filesystem::path> convergence;  ///< what `tunica converge` has found of the case
 
   static config::Schema<ReportCase> schema();
 };
