@@ -51,9 +51,14 @@ struct Study {
 
 /// The mesh `factor` times as fine.
 void refine_mesh(const case_file::Case& c, double factor, config::Document& document) {
+  const auto mm = [](double metres) { return fmt::format("{:.6g} mm", 1e3 * metres); };
   if (c.mesh) {
-    document.set("mesh.size", config::Document(fmt::format("{{edge: {:.6g} mm}}",
-                                                           1e3 * case_file::edge_length(c.mesh->size) / factor)));
+    std::string size = fmt::format("edge: {}", mm(case_file::edge_length(c.mesh->size) / factor));
+    if (const auto across = case_file::across(c.mesh->size))
+      size = fmt::format("elements_across: {{count: {:.6g}, longest_edge: {}{}}}", factor * across->count,
+                         mm(across->longest / factor),
+                         across->shortest ? ", shortest_edge: " + mm(*across->shortest / factor) : "");
+    document.set("mesh.size", config::Document("{" + size + "}"));
     return;
   }
   const mesh::TubeSizes& tube = *c.meshes.tube;
