@@ -62,7 +62,7 @@ geometry::SizeSettings settings_by_diameter(const Across& a) {
   geometry::SizeSettings settings;
   settings.across = a.count;
   settings.largest = a.longest;
-  // Around a tube as across it; one quadratic layer bends right when it is twice as long as thick (docs/meshing.md).
+  // Around a tube as across it; elements of wall and flap are at most twice as long as thick.
   settings.per_radius = std::min(0.8, 2 / a.count);
   settings.per_thickness = std::min(2.0, 8 / a.count);
   settings.smallest_across = std::min(a.longest, a.shortest.value_or(2 * mm / a.count));

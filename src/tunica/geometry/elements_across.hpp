@@ -14,7 +14,7 @@
 
 namespace tunica::geometry {
 
-/// What velocities need to have the drag of a tube within 10 % (docs/meshing.md).
+/// What flow needs (docs/meshing.md).
 inline constexpr double enough_quadratic = 4, enough_linear = 10;
 
 struct ElementsAcross {

@@ -8,9 +8,9 @@
 namespace tunica::meshing {
 
 struct Tear {
-  geometry::Point centre;  ///< m
-  Vec3<double> normal;     ///< unit, towards the true lumen
-  double area = 0;         ///< m^2
+  geometry::Point centre;                   ///< m
+  Vec3<double> normal;                      ///< unit, towards the true lumen
+  double area = 0;                          ///< m^2
   std::vector<geometry::Index> elements{};  ///< that it cuts
 };
 

@@ -60,7 +60,8 @@ TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
   // It is coarse, and says so.
   const auto warning = printed().find("warning");
   ASSERT_NE(warning, std::string::npos) << printed();
-  EXPECT_EQ(printed().find("mesh.size: 2.5 elements across the lumen are asked for", warning), warning + 9) << printed();
+  EXPECT_EQ(printed().find("mesh.size: 2.5 elements across the lumen are asked for", warning), warning + 9)
+      << printed();
   EXPECT_EQ(printed().find("warning", warning + 1), std::string::npos) << printed();
   ASSERT_EQ(tunica("run case.yaml --until fibres"), 0) << printed();
   EXPECT_NE(printed().find("genus 1, manifold"), std::string::npos) << printed();

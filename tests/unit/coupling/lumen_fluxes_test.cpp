@@ -118,8 +118,11 @@ TEST_P(Pulse, WhatPassesTheCutsIsWhatThePartGains) {
     EXPECT_GT(std::abs(r.in_false.volume_rate), 1e-3 * r.largest_flow) << k;
     // No opening lies in the middle. What passes its wall is the difference between edges and the means of corners.
     EXPECT_EQ(r.in_false.outflow, 0) << k;
-    EXPECT_LT(std::abs(r.in_false.leakage), (GetParam() ? 0.1 : 1e-12) * r.largest_flow) << k;
-    if (GetParam()) EXPECT_GT(std::abs(r.in_false.leakage), 1e-5 * r.largest_flow) << k;
+    if (GetParam()) {
+      EXPECT_GT(std::abs(r.in_false.leakage), 1e-2 * r.largest_flow) << k;
+    } else {
+      EXPECT_LT(std::abs(r.in_false.leakage), 1e-12 * r.largest_flow) << k;
+    }
   }
 }
 INSTANTIATE_TEST_SUITE_P(Elements, Pulse, testing::Bool(),

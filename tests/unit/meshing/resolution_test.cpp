@@ -18,7 +18,7 @@ using geometry::Point;
 
 /// 12 mm wide, then a cone over 10 mm, then 5 mm; a wall of 1.5 mm around it.
 geometry::TriangleSurface two_diameters(double outwards) {
-  auto surface = geometry::test::tube(1e-3, 40e-3, 48, 60);
+  auto surface = geometry::test::tube(1e-3, 40e-3, 32, 40);
   for (auto& p : surface.points) {
     const double radius = 6e-3 - 3.5e-3 * std::clamp((p[2] - 15e-3) / 10e-3, 0.0, 1.0) + outwards;
     p[0] *= radius / 1e-3, p[1] *= radius / 1e-3;
@@ -82,9 +82,13 @@ TEST(Resolution, OfTheLumensAndTheTearOfABlock) {
   EXPECT_EQ(tears[0].elements.size(), 24U);  // the four cells of the hole
   const auto parts = resolution(mesh, openings, faces, regions, tears);
   ASSERT_EQ(parts.size(), 5U);
-  EXPECT_NEAR(part(parts, "tear_1").median, 2 / 1.11, 0.5);
-  EXPECT_NEAR(part(parts, "tear_1").diameter, 2e-3, 0.5e-3);
-  EXPECT_NEAR(part(parts, "true_lumen").median, 3 / 1.11, 0.6);
+  // All nodes of the hole lie on its sharp rims, where normals are those of an edge: its diagonal is seen.
+  EXPECT_GT(part(parts, "tear_1").median, 2 / 1.11 - 0.2);
+  EXPECT_LT(part(parts, "tear_1").median, std::sqrt(2) * 2 / 1.11 + 0.2);
+  EXPECT_GT(part(parts, "tear_1").diameter, 1.9e-3);
+  EXPECT_LT(part(parts, "tear_1").diameter, 2.9e-3);
+  EXPECT_NEAR(part(parts, "true_lumen").least, 3 / 1.11, 0.6);
+  EXPECT_NEAR(part(parts, "true_lumen").median, 7 / 1.11, 1);  // most of it is where there is no flap
   EXPECT_NEAR(part(parts, "lumen_inlet").median, 7 / 1.11, 1.2);
   EXPECT_GT(part(parts, "false_lumen").median, 2);
 }

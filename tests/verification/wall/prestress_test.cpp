@@ -105,7 +105,7 @@ TEST(Prestress, ThinTubeCarriesTheHoopStressOfEquilibrium) {
 /// One quadratic element through the thickness, with a prestress at each of its points.
 TEST(Prestress, ThinTubeOfQuadraticElementsCarriesTheHoopStressOfEquilibrium) {
   const mesh::CylinderSizes thin{
-      .inner = 0.012, .outer = 0.0125, .length = 0.001, .cells_radial = 1, .cells_around = 24, .cells_along = 2};
+      .inner = 0.012, .outer = 0.0125, .length = 0.001, .cells_radial = 1, .cells_around = 16, .cells_along = 1};
   const double exact = p * thin.inner / (thin.outer - thin.inner);
   print("thin tube, quadratic elements: p R / h = %.2f kPa\n", exact / 1e3);
   for (const Element element : {Element::mixed, Element::displacement})
