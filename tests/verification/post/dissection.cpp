@@ -83,12 +83,13 @@ TEST(PostDissection, LumensTearsAndMass) {
       total, lumen);
   EXPECT_NEAR(total / lumen, 1, 1e-3);  // the last record of the run is a fraction of a step earlier
 
-  // dV/dt of the false lumen is the slope of its volume.
+  // dV/dt of the false lumen, which the run writes, makes the change of its volume, which the fields have.
   const auto &rate = tears.column("false lumen dV/dt [ml/s]"), &time = tears.column("time [s]");
   const std::size_t k = time.size() / 2;
   const double slope = (in_false[k + 1] - in_false[k - 1]) / (time[k + 1] - time[k - 1]);
-  say("  dV/dt %.4f ml/s, slope of the volume %.4f ml/s\n", rate[k], slope);
-  EXPECT_NEAR(rate[k], slope, 0.02 * std::abs(slope) + 1e-3);
+  const double mean = 0.25 * (rate[k - 1] + 2 * rate[k] + rate[k + 1]);
+  say("  dV/dt %.4f ml/s in the mean, slope of the volume %.4f ml/s\n", mean, slope);
+  EXPECT_NEAR(mean, slope, 0.02 * std::abs(slope) + 1e-3);
 
   // Along the dissected part there are two lumens, before it one; what passes the first section came in at the inlet.
   int with_false = 0;
