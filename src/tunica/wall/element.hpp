@@ -61,7 +61,7 @@ struct ElementState {
   Mat3<T> axes = identity<T>();     ///< columns: axes of these gradients, global components; orthonormal, or times F0
   Vec3<T> displacement[fe::nodes];  ///< u at t_{n+alpha_f} [m]
   Vec3<T> acceleration[fe::nodes];  ///< v_dot at t_{n+alpha_m} [m/s^2]
-  T pressure[fe::nodes];            ///< p at t_{n+1} [Pa], mixed element only
+  T pressure[fe::nodes];            ///< p at t_{n+alpha_f} [Pa], mixed element only
 };
 
 /// Gradients of the element with the corners X [m] in global axes.

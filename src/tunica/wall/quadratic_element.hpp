@@ -33,7 +33,7 @@ struct ElementState {
   Mat3<T> axes = identity<T>();  ///< columns: axes of these gradients
   Vec3<T> displacement[nodes];   ///< u at t_{n+alpha_f} [m]
   Vec3<T> acceleration[nodes];   ///< v_dot at t_{n+alpha_m} [m/s^2]
-  T pressure[fe::nodes];         ///< p of the corners at t_{n+1} [Pa], mixed element only
+  T pressure[fe::nodes];         ///< p of the corners at t_{n+alpha_f} [Pa], mixed element only
 };
 
 /// Prestress of one element, axes of its gradients.
