@@ -182,20 +182,23 @@ void mark_openings(const mesh::MeshData& data, Vessel& vessel) {
 }
 
 void place_tears(Vessel& vessel) {
-  for (auto& tear : vessel.tears) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& station : vessel.stations)
-      if (const double d = norm(station.centre - tear.centre); d < nearest) {
-        nearest = d;
-        tear.distance = station.distance;
-      }
-  }
+  for (auto& tear : vessel.tears) tear.distance = distance_along(vessel, tear.centre);
   std::stable_sort(vessel.tears.begin(), vessel.tears.end(),
                    [](const Tear& a, const Tear& b) { return a.distance < b.distance; });
   for (std::size_t k = 0; k < vessel.tears.size(); ++k) vessel.tears[k].name = fmt::format("tear_{}", k + 1);
 }
 
 }  // namespace
+
+double distance_along(const Vessel& vessel, const Vec3<double>& place) {
+  double nearest = std::numeric_limits<double>::infinity(), distance = 0;
+  for (const auto& station : vessel.stations)
+    if (const double d = norm(station.centre - place); d < nearest) {
+      nearest = d;
+      distance = station.distance;
+    }
+  return distance;
+}
 
 const mesh::RegionData* lumen_region(const mesh::MeshData& data) {
   for (const auto& region : data.regions)

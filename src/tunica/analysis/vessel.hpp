@@ -67,6 +67,9 @@ void check_ends(const RunDescription& run, const PostSettings& settings, const m
 /// `data`: the same on all ranks. Throws InputError for faces and regions that the mesh does not have. Collective.
 Vessel make_vessel(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm);
 
+/// Distance of the nearest station along the centreline [m]; 0 without stations.
+double distance_along(const Vessel& vessel, const Vec3<double>& place);
+
 /// The lumen region of a mesh, null without.
 const mesh::RegionData* lumen_region(const mesh::MeshData& data);
 

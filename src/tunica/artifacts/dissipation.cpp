@@ -18,8 +18,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* remedy = "it is a history of the run: put it back, or begin anew with --overwrite";
-
 struct PowerColumns {
   std::string part;
   const std::vector<double>*viscous, *numerical;
@@ -58,9 +56,9 @@ std::vector<std::string> Dissipation::parts_above_limit() const {
 
 std::optional<Dissipation> read_dissipation(const fs::path& folder, double from, double until) {
   const fs::path by_part = folder / "dissipation.csv";
-  const auto powers =
-                 files::read_csv(fs::exists(by_part) ? by_part : folder / "balance.csv", remedy, files::Gaps::allowed),
-             steps = files::read_csv(folder / "steps.csv", remedy, files::Gaps::allowed);
+  const auto powers = files::read_csv(fs::exists(by_part) ? by_part : folder / "balance.csv", history_remedy,
+                                      files::Gaps::allowed),
+             steps = files::read_csv(folder / "steps.csv", history_remedy, files::Gaps::allowed);
   const auto columns = power_columns(powers);
   const auto ends = si_column(steps, "time", config::dimension::time),
              sizes = si_column(steps, "dt", config::dimension::time);

@@ -17,6 +17,9 @@
 
 namespace tunica::artifacts {
 
+/// What to do where a history does not read.
+inline constexpr const char* history_remedy = "it is a history of the run: put it back, or begin anew with --overwrite";
+
 /// A place where the steps of a history do not follow each other.
 struct HistoryBreak {
   std::size_t line;  ///< number of the line of numbers after it, from 0

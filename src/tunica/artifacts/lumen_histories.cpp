@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* remedy = "it is a history of the run: put it back, or begin anew with --overwrite";
-
 std::string tears_json(const analysis::Lumens& lumens) {
   nlohmann::ordered_json tears = nlohmann::ordered_json::array();
   for (const auto& tear : lumens.tears)
@@ -86,7 +84,7 @@ std::optional<LumenSeries> read_lumens(const fs::path& folder) {
   const fs::path json_file = folder / "lumens.json";
   if (!fs::exists(folder / "lumens.csv") || !fs::exists(json_file)) return std::nullopt;
   LumenSeries series;
-  series.table = files::read_csv(folder / "lumens.csv", remedy);
+  series.table = files::read_csv(folder / "lumens.csv", history_remedy);
   files::refuse_other_than_file(json_file);
   std::ifstream in(json_file);
   try {
@@ -98,7 +96,7 @@ std::optional<LumenSeries> read_lumens(const fs::path& folder) {
                               1e-6 * tear.at("area_mm2").get<double>()});
     }
   } catch (const nlohmann::json::exception&) {
-    throw InputError(json_file.string(), "is not what a run writes", remedy);
+    throw InputError(json_file.string(), "is not what a run writes", history_remedy);
   }
   const auto column = [&](const std::string& name, const config::Dimension& due) {
     return si_column(series.table, name, due);

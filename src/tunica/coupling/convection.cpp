@@ -8,6 +8,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/distributed/element_nodes.hpp"
+#include "tunica/fe/quadratic_mass.hpp"
 #include "tunica/fe/quadratic_tetrahedron.hpp"
 #include "tunica/parallel/agree.hpp"
 
@@ -18,15 +19,6 @@ namespace {
 constexpr int n = fe::quadratic_nodes;
 constexpr double tolerance = 1e-8;  // of the residual: far below what the projection takes from the flow
 constexpr int most_iterations = 200;
-
-// Mean of N_a N_b over an element.
-constexpr auto mean_products = [] {
-  std::array<std::array<double, n>, n> m{};
-  for (const auto& point : fe::quadratic_fourteen_points)
-    for (int a = 0; a < n; ++a)
-      for (int b = 0; b < n; ++b) m[a][b] += point.weight * point.N[a] * point.N[b];
-  return m;
-}();
 
 /// The mass matrix of the lumen at one instant, applied element by element: its inverse is asked for once in a step.
 class Projection {
@@ -67,7 +59,7 @@ Projection::Projection(const distributed::DistributedMesh& mesh, const State& st
       for (int a = 0; a < 4; ++a) element.gradients[a] = shape.dN[a];
       for (int a = 0; a < n; ++a)
         if (element.nodes[a] < mesh.owned_nodes)
-          inverse_diagonal_[element.nodes[a]] += shape.volume * mean_products[a][a];
+          inverse_diagonal_[element.nodes[a]] += shape.volume * fe::quadratic_mass[a][a];
     }
   }
   for (double& d : inverse_diagonal_)
@@ -98,7 +90,8 @@ std::vector<double> Projection::times(const std::vector<double>& x) const {
   for (const Element& e : elements_)
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n; ++b)
-        for (int c = 0; c < 3; ++c) y[at(e.nodes[a]) + c] += e.volume * mean_products[a][b] * x[at(e.nodes[b]) + c];
+        for (int c = 0; c < 3; ++c)
+          y[at(e.nodes[a]) + c] += e.volume * fe::quadratic_mass[a][b] * x[at(e.nodes[b]) + c];
   return y;
 }
 

@@ -1,7 +1,6 @@
 #include "tunica/stages/post/lumen_flows.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "tunica/analysis/cycle.hpp"
@@ -38,16 +37,6 @@ class Clip {
   std::vector<double> times_;
 };
 
-double distance_of(const analysis::Vessel& vessel, const Vec3<double>& place) {
-  double nearest = std::numeric_limits<double>::infinity(), distance = 0;
-  for (const auto& station : vessel.stations)
-    if (const double d = norm(station.centre - place); d < nearest) {
-      nearest = d;
-      distance = station.distance;
-    }
-  return distance;
-}
-
 }  // namespace
 
 std::size_t LumenFlows::entry() const {
@@ -83,7 +72,7 @@ LumenFlows flows_of_run(const artifacts::LumenSeries& series, const analysis::Ve
                    .true_volume = clip.values(series.true_volume)};
   for (std::size_t k = 0; k < series.tears.size(); ++k)
     flows.tears.push_back(
-        {series.tears[k], distance_of(vessel, series.tears[k].centre), clip.values(series.tear_flows[k])});
+        {series.tears[k], analysis::distance_along(vessel, series.tears[k].centre), clip.values(series.tear_flows[k])});
   return flows;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "tunica/artifacts/histories.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/csv_file.hpp"
@@ -64,9 +65,8 @@ Cycles::Cycles(const std::filesystem::path& folder, const case_file::Case& c, st
       table_(folder / "cycles.csv", columns(units_, openings_), continue_from) {}
 
 std::vector<Cycles::Opening> Cycles::measure(int cycle) const {
-  const char* remedy = "it is a history of the run: put it back, or begin anew with --overwrite";
-  const files::CsvColumns faces = files::read_csv(folder_ / "faces.csv", remedy),
-                          steps = files::read_csv(folder_ / "steps.csv", remedy);
+  const files::CsvColumns faces = files::read_csv(folder_ / "faces.csv", artifacts::history_remedy),
+                          steps = files::read_csv(folder_ / "steps.csv", artifacts::history_remedy);
   const auto &ends = steps.column(fmt::format("time [{}]", units_.time)),
              &sizes = steps.column(fmt::format("dt [{}]", units_.time));
   // Ends of steps, which fall on the end of a cycle but for the ten digits of the table.
