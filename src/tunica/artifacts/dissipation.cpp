@@ -99,8 +99,8 @@ std::optional<std::string> warning_of(const Dissipation& d) {
     if (p.above_limit()) places += fmt::format("{}{:.3g} times in: {}", places.empty() ? "" : ", ", p.ratio(), p.part);
   return fmt::format(
       "the scheme takes more than {:g} times what friction takes from the flow ({}): flow, pressure and wall shear "
-      "there depend on the mesh; refine it there (more elements across the lumen and the tears), or choose "
-      "`elements: quadratic`",
+      "there depend on the mesh; refine it there (more elements across the lumen and the tears); linear elements "
+      "gain far more from `elements: quadratic`",
       PartDissipation::limit, places);
 }
 

@@ -204,9 +204,9 @@ void check_chain(const Case& c, Problems& problems) {
   if (c.mesh.has_value() == c.meshes.given())
     problems.add(c.mesh ? "meshes" : "", c.mesh ? "is given, and `mesh` too" : "`meshes` is missing: no mesh is given",
                  "give `meshes`, which are there, or `mesh`, which is made first");
-  if (c.mesh && !(c.solves_fluid() && c.solves_wall()))
-    problems.add("mesh", "makes lumen and wall, but the analysis is of one of them",
-                 "choose `analysis: fsi`, or make the mesh by `tunica mesh` and give what is wanted of it as `meshes`");
+  if (c.mesh && !c.solves_fluid())
+    problems.add("mesh", "makes lumen and wall, but the analysis is of the wall alone",
+                 "choose `analysis: fsi` or `flow`, or make the mesh by `tunica mesh` and give its wall as `meshes`");
   if (!c.compare.empty() && !c.solves_wall())
     problems.add("compare", "is given, but the analysis has no wall", "remove it");
   if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");

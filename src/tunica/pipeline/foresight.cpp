@@ -97,13 +97,14 @@ Names openings_of(const meshing::ImageGeometry& image, const case_file::Case& c)
   return names;
 }
 
-std::vector<bc::BoundaryFace> faces_to_come(const Names& openings) {
+std::vector<bc::BoundaryFace> faces_to_come(const Names& openings, bool with_wall) {
   std::vector<bc::BoundaryFace> faces;
   for (const auto& name : openings) {
     faces.push_back({"lumen_" + name, bc::Field::lumen});
-    faces.push_back({"wall_" + name, bc::Field::wall});
+    if (with_wall) faces.push_back({"wall_" + name, bc::Field::wall});
   }
   faces.push_back({meshing::lumen_interface, bc::Field::lumen});
+  if (!with_wall) return faces;
   faces.push_back({meshing::wall_interface, bc::Field::wall});
   faces.push_back({"wall_outer", bc::Field::wall});
   return faces;
@@ -189,14 +190,15 @@ void check_stage_faces(const case_file::Case& c, const std::vector<bc::BoundaryF
 /// Faces of a mesh that is yet to be made, and the conditions on them.
 void check_faces_to_come(const case_file::Case& chain_case, Problems& problems) {
   case_file::Case c = chain_case;
-  c.meshes.interface = case_file::InterfaceSettings{{meshing::lumen_interface}, {meshing::wall_interface}};
+  if (c.solves_wall())
+    c.meshes.interface = case_file::InterfaceSettings{{meshing::lumen_interface}, {meshing::wall_interface}};
   Names openings;
   collect(problems, "mesh.geometry: ", [&] {
     openings = std::visit([&](const auto& geometry) { return openings_of(geometry, c); }, *c.mesh->geometry);
   });
   check_region_names(c, problems);
   if (openings.empty()) return;
-  const auto faces = faces_to_come(openings);
+  const auto faces = faces_to_come(openings, c.solves_wall());
   const auto wrong = artifacts::check_faces(c, faces);
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   if (c.fibres) check_fibre_faces(*c.fibres, names_of(faces), problems);

@@ -68,6 +68,8 @@ Document meshes_for(const Chain& chain, const fs::path& folder, bool with_fibres
   const fs::path file = from / "meshes.yaml";
   Document meshes = Document(config::read_text(file), file.string()).part("meshes");
   config::move_paths(meshes, *description_of<case_file::MeshSettings>(), from, folder);
+  if (!chain.settings.solves_wall())
+    for (const char* part : {"wall", "interface"}) meshes.remove(part);
   return meshes;
 }
 

@@ -132,5 +132,17 @@ TEST_F(Check, KnowsTheOpeningsOfAMeshToCome) {
   expect_refused(counted, {"lumen_inlet:", "lumen_inflow:", "boundary.lumen_inflow: the mesh has no such face"});
 }
 
+TEST_F(Check, OfAMeshToComeFlowAloneTakesTheLumen) {
+  const std::string rigid =
+      "analysis: flow\nmesh: {geometry: {parametric: {}}, size: coarse}\n"
+      "fluid: {}\n"
+      "boundary: {lumen_inlet: {flow: 90 ml/s}, lumen_wall: no_slip, \"lumen_*\": {resistance: 4e8 Pa s/m^3}}\n"
+      "time: {step: 1 ms, steps: 2}\n";
+  write("case.yaml", rigid);
+  EXPECT_EQ(tunica("check case.yaml"), 0) << printed();
+  expect_refused(rigid, {"lumen_wall: no_slip", "lumen_wall: no_slip, wall_outer: free",
+                         "boundary.wall_outer: the mesh has no such face"});
+}
+
 }  // namespace
 }  // namespace tunica::test
