@@ -4,8 +4,8 @@
 // Find (v, p) so that for all (w, q), with a = v - v^ the velocity relative to the mesh,
 //   (w, rho (v. + a.grad v + 1/2 (div v) v)) + (grad w, 2 mu eps - p I) + (q, div v)
 //   + sum_e (tau_M rho^2 b.grad w, b.grad v - P) + (tau_C div w, div v) = boundary terms,
-//   tau_M = [rho sqrt(mean_e b.G b + s^2 tr G / 3 + (2 c_M)^2 mean_e |v.|^2 / s^2 + c_I (mu / rho)^2 G:G)]^-1,
-//   s^2 = mean_e |b|^2 + (U / 5)^2,   tau_C = kappa / (tau_M tr G),
+//   tau_M = theta [rho sqrt(L^2 + s^2 tr G / 3 + (2 c_M)^2 mean_e |v.|^2 / s^2)]^-1,   s^2 = mean_e |b|^2 + (U / 5)^2,
+//   tau_C = kappa rho sqrt(L^2 + mean_e |b|^2 tr G / 3) / tr G,   L^2 = mean_e b.G b + c_I (mu / rho)^2 G:G,
 // with b = a, v. and P of the start of the step, P the L2 projection of b.grad v onto continuous quadratic functions
 // (orthogonal subscales, Codina 2002; coupling/convection.hpp): what the mesh resolves of convection loses nothing.
 //
@@ -14,9 +14,10 @@
 //
 // tau_M does not know the time step: what a steady flow loses must not depend on it. In its place stand the times in
 // which blood crosses the element and in which its velocity changes; a fifth of the speed U of the whole flow keeps
-// tau_M smooth where blood stagnates. As b is known, the stabilisation is linear in the unknowns: with b = a Newton's
-// method fails when a flow starts at once. It holds no rate: with that of the complete residual the equations lose
-// their definiteness where pressure drives blood in, at steps far below tau_M.
+// tau_M smooth where blood stagnates; tau_C knows only the flow in the element, or it would be the largest friction of
+// a false lumen where blood hardly moves. As b is known, the stabilisation is linear in the unknowns: with b = a
+// Newton's method fails when a flow starts at once. It holds no rate: with that of the complete residual the equations
+// lose their definiteness where pressure drives blood in, at steps far below tau_M.
 //
 // tau_C makes the velocity robust against the pressure: that of a jet, rho |v|^2 / 2, is far from linear in an element,
 // and what linear pressure cannot balance drives v apart, by an error over mu without tau_C and over tau_C with it
@@ -34,6 +35,9 @@ namespace tunica::fluid::taylor_hood {
 
 inline constexpr int nodes = fe::quadratic_nodes;
 inline constexpr int points = 14;
+
+/// theta of tau_M: convection sees the length h / (2 p) of an element of order p = 2, and G stands for h.
+inline constexpr double tau_m_factor = 0.25;
 
 /// kappa of tau_C: 1.5 raises the pressure loss of a jet through an orifice by 3 (six elements across) and 8 % (three).
 inline constexpr double tau_c_factor = 0.3;
@@ -80,7 +84,8 @@ struct Flow {
   T volume;      ///< m^3
   T gg[4][4];    ///< g_a . g_b
   T trace_g;
-  T common;  ///< part of 1 / (rho tau_M)^2 without b.G b [1/s^2]
+  T common;  ///< part of (theta / (rho tau_M))^2 without b.G b [1/s^2]
+  T local;   ///< the same of tau_C: without the speed of the whole flow and the rate [1/s^2]
   T mu;      ///< viscosity at the centroid [Pa s]
 };
 
@@ -119,10 +124,12 @@ TUNICA_INLINE Flow<T> evaluate(const ElementState<T>& s, const TimeCoefficients&
     rates += s.rate_squared[b];
   }
   const T nu = f.mu * T(1.0 / parameters.density);
-  const T speed = T(1.0 / nodes) * squares + T(0.04 * time.speed * time.speed + 1e-12);
+  const T floor(0.04 * time.speed * time.speed + 1e-12);
+  const T speed = T(1.0 / nodes) * squares + floor;
   const T rate = T(4.0 * parameters.c_m * parameters.c_m / nodes) * rates / speed;
   f.trace_g = f.gg[1][1] + f.gg[2][2] + f.gg[3][3];
-  f.common = T(1.0 / 3.0) * f.trace_g * speed + rate + T(parameters.c_i) * nu * nu * g_g;
+  f.local = T(1.0 / (3.0 * nodes)) * f.trace_g * squares + T(parameters.c_i) * nu * nu * g_g;
+  f.common = f.local + T(1.0 / 3.0) * f.trace_g * floor + rate;
   return f;
 }
 
@@ -175,9 +182,8 @@ TUNICA_INLINE void at_points(const ElementState<T>& s, const Flow<T>& f, const P
       metric += T(point.weight) * along * along;
     }
   }
-  const T root = sqrt(f.common + metric + T(1e-12));
-  flows.tau_m = T(1.0 / parameters.density) / root;
-  flows.tau_c = T(tau_c_factor * parameters.density) * root / f.trace_g;
+  flows.tau_m = T(tau_m_factor / parameters.density) / sqrt(f.common + metric + T(1e-12));
+  flows.tau_c = T(tau_c_factor * parameters.density) * sqrt(f.local + metric + T(1e-12)) / f.trace_g;
 }
 
 /// Integrals of one point, added to the residual.
