@@ -219,6 +219,16 @@ void check_ends(const RunDescription& run, const PostSettings& settings, const m
   find_ends(run, settings, data, vessel);
 }
 
+void tell_lumens_apart(const RunDescription& run, const PostSettings& settings, mesh::MeshData& data, MPI_Comm comm) {
+  check_ends(run, settings, data);
+  if (!run.fluid) return;
+  const auto walls = lumen_walls(run, settings, data);
+  if (!walls) return;
+  const auto mesh = distributed::distribute(data, comm);
+  std::erase_if(data.node_fields, [](const auto& field) { return field.name == mesh::lumen_side; });
+  data.node_fields.push_back({mesh::lumen_side, everywhere(mesh, frames::lumen_sides(mesh, *walls).phi)});
+}
+
 Vessel make_vessel(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm) {
   Vessel vessel;
   if (!run.fluid) {
@@ -228,16 +238,11 @@ Vessel make_vessel(const RunDescription& run, const PostSettings& settings, cons
   }
   sort_faces(run, data, vessel);
   find_ends(run, settings, data, vessel);
-  const auto walls = lumen_walls(run, settings, data);
   const auto mesh = distributed::distribute(data, comm);
   vessel.along = potential_along(run, data, mesh, vessel);
   vessel.towards_end = potential_towards_end(run, data, mesh, vessel);
-  if (walls) {
-    vessel.side = everywhere(mesh, frames::lumen_sides(mesh, *walls).phi);
-  } else {
-    for (const auto& field : data.node_fields)
-      if (field.name == mesh::lumen_side) vessel.side = field.values;
-  }
+  for (const auto& field : data.node_fields)
+    if (field.name == mesh::lumen_side) vessel.side = field.values;
   if (vessel.side.empty()) {
     leave_lumens_out(run, vessel);
   } else {

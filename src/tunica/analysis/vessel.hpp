@@ -64,7 +64,14 @@ std::string inlet_name(const RunDescription& run, const PostSettings& settings);
 /// Throws InputError for openings and regions of the settings that the mesh does not have. Not collective.
 void check_ends(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data);
 
-/// `data`: the same on all ranks. Throws InputError for faces and regions that the mesh does not have. Collective.
+/// Gives the nodes mesh::lumen_side, by the walls of both lumens where there are any (frames/tears.hpp), which come
+/// before the field that the mesh may have already. `data`: corners of the elements only, the same on all ranks. What
+/// nodes on edges are given later is the mean of their ends, so that lumens and tears are those of the run. Throws
+/// InputError for faces and regions that the mesh does not have. Collective.
+void tell_lumens_apart(const RunDescription& run, const PostSettings& settings, mesh::MeshData& data, MPI_Comm comm);
+
+/// `data`: the same on all ranks, with the field of `tell_lumens_apart` where there are two lumens. Throws InputError
+/// for faces and regions that the mesh does not have. Collective.
 Vessel make_vessel(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm);
 
 /// Distance of the nearest station along the centreline [m]; 0 without stations.

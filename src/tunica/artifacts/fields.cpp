@@ -148,11 +148,12 @@ void OutputFields::compute_shear_stress(const State& state) {
 void OutputFields::compute_wall_stress(const State& state) {
   const auto& mesh = problem_.mesh();
   const coupling::WallModel& model = problem_.wall_model();
+  const auto fields = problem_.fields_with_pressure(state);
   for (auto& stress : stress_) {
     const auto region = static_cast<std::size_t>(stress.region);
     for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
       const auto index = static_cast<std::int32_t>(e);
-      const auto element = coupling::wall_element(mesh, model, state, region, index);
+      const auto element = coupling::wall_element(mesh, model, fields, region, index);
       const auto sigma = coupling::cauchy_stress(model, region, index, element);
       stress.von_mises[e] = wall::von_mises(sigma);
       stress.principal[e] = wall::principal_stresses(sigma)[0];

@@ -15,7 +15,8 @@ namespace tunica::artifacts {
 /// lumen: velocity, pressure, displacement (of the mesh, when it moves), wall shear stress (zero off the wall);
 /// wall: velocity (in dynamics), displacement, pressure (mixed element), and for each element the von Mises stress, the
 /// largest principal stress, and the Cauchy stress along the mean direction of each family of fibres that the law of
-/// its region has.
+/// its region has. Pressures and stresses of the wall are those at t_{n-1+alpha_f}, where the equations are met, all
+/// else belongs to t_n.
 class OutputFields {
  public:
   /// `problem` must outlive this.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "tunica/artifacts/plausible_faces.hpp"
@@ -80,12 +81,21 @@ LoadedMesh read_regions(const case_file::MeshSettings& m, const WallArrays& arra
   return mesh::join(parts, std::span(&interface, 1), {.tolerance = m.interface->tolerance});
 }
 
+/// The sizes for which the polygons of mesh::tube() have the areas of the circles of `sizes`: their corners lie outside
+/// of the circles. What corners on the circle take from the area, they would add twice over to the resistance.
+mesh::TubeSizes with_areas_of_circles(mesh::TubeSizes sizes) {
+  const double turn = 2 * M_PI / sizes.cells_around, factor = std::sqrt(turn / std::sin(turn));
+  sizes.radius *= factor;
+  sizes.wall_thickness *= factor;
+  return sizes;
+}
+
 LoadedMesh read_or_generate(const case_file::MeshSettings& m, const WallArrays& arrays) {
   if ((m.tube || m.gmsh) && !arrays.face_arrays.empty())
     throw InputError("boundary." + arrays.face_arrays.begin()->first,
                      "names a point array, which only SimVascular folders bring",
                      "give a constant, or the wall as `simvascular`");
-  if (m.tube) return {mesh::tube(*m.tube), {}};
+  if (m.tube) return {mesh::tube(with_areas_of_circles(*m.tube)), {}};
   if (!m.gmsh) return read_regions(m, arrays);
   mesh_io::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}, .fields = arrays.fields};
   for (const auto& [name, kind] : m.gmsh->regions) options.regions.push_back({name, kind});

@@ -166,6 +166,13 @@ FieldsView Problem::fields() const {
           convection_.data()};
 }
 
+FieldsView Problem::fields_with_pressure(const State& state) const {
+  if (accepted_step_ == state.step) return fields();
+  return {.velocity_pressure = state.velocity_pressure.data(),
+          .acceleration = state.acceleration.data(),
+          .displacement = state.displacement.data()};
+}
+
 void Problem::synchronise_twins(State& state) const {
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i) {
     const auto host = mesh_.host[i];
@@ -518,6 +525,7 @@ StepReport Problem::newton(const State& old_state, State& next, const Instant& i
 StepReport Problem::advance(State& state, double dt) {
   const TimeScheme scheme = TimeScheme::generalised_alpha(dt, input_.rho_infinity);
   const Instant instant{scheme, state.time + scheme.alpha_f * dt, 1.0};
+  accepted_step_.reset();
   State next = state;
   next.time = state.time + dt;
   next.dt = dt;
@@ -545,6 +553,7 @@ StepReport Problem::advance(State& state, double dt) {
   }
   interpolate_pressure(next);
   state = std::move(next);
+  accepted_step_ = state.step;
   return report;
 }
 

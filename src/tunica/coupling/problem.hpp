@@ -103,6 +103,9 @@ class Problem {
 
   /// Fields at t_{n+alpha_f} of the last evaluation.
   FieldsView fields() const;
+  /// Displacement and pressure of one instant: those at t_{n-1+alpha_f} where the step that this problem last accepted
+  /// led to `state`; its own elsewhere, as at the start of a run and in statics. `state` must outlive them.
+  FieldsView fields_with_pressure(const State& state) const;
   const Boundaries& boundaries() const { return boundaries_; }
   /// Flows that the conditions `flow` prescribe at t_{n+alpha_f} of the last step.
   const std::vector<Boundaries::FaceFlow>& prescribed_flows() const { return prescribed_flows_; }
@@ -182,6 +185,7 @@ class Problem {
   double flow_speed_ = 0.0;
   StepTimings timings_;  ///< of the step under way
   std::vector<Boundaries::FaceFlow> prescribed_flows_;
+  std::optional<std::int64_t> accepted_step_;  ///< State::step that the last accepted step led to; none in the next one
 };
 
 }  // namespace tunica::coupling

@@ -30,12 +30,12 @@ FieldsView view(const State& state) {
 }
 
 wall::ElementState<double> linear_wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
-                                               const State& state, std::size_t region, std::int32_t element) {
+                                               const FieldsView& fields, std::size_t region, std::int32_t element) {
   const auto& nodes = mesh.regions[region].elements[element];
   const Vec3<double> X[4] = {mesh.points[nodes[0]], mesh.points[nodes[1]], mesh.points[nodes[2]],
                              mesh.points[nodes[3]]};
   wall::ElementState<double> e = model.at_rest(region, element, X);
-  gather_corners(view(state), nodes, e);
+  gather_corners(fields, nodes, e);
   return e;
 }
 
@@ -63,15 +63,20 @@ wall::quadratic::ElementState<double> quadratic_wall_element(const distributed::
 }
 
 wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
-                                        const State& state, std::size_t region, std::int32_t element) {
-  if (!mesh.quadratic) return linear_wall_element(mesh, model, state, region, element);
-  return wall::quadratic::at_centroid(quadratic_wall_element(mesh, model, view(state), region, element),
+                                        const FieldsView& fields, std::size_t region, std::int32_t element) {
+  if (!mesh.quadratic) return linear_wall_element(mesh, model, fields, region, element);
+  return wall::quadratic::at_centroid(quadratic_wall_element(mesh, model, fields, region, element),
                                       model.point_prestress(region, element));
+}
+
+wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
+                                        const State& state, std::size_t region, std::int32_t element) {
+  return wall_element(mesh, model, view(state), region, element);
 }
 
 wall::ElementState<double> wall_point(const distributed::DistributedMesh& mesh, const WallModel& model,
                                       const State& state, std::size_t region, std::int32_t element, int point) {
-  if (!mesh.quadratic) return linear_wall_element(mesh, model, state, region, element);
+  if (!mesh.quadratic) return linear_wall_element(mesh, model, view(state), region, element);
   return wall::quadratic::at_point(quadratic_wall_element(mesh, model, view(state), region, element), point,
                                    model.point_prestress(region, element));
 }

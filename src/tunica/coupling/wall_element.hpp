@@ -10,6 +10,10 @@ namespace tunica::coupling {
 /// The element with its reference in its fibre frame, displacement, acceleration and pressure. Of a quadratic mesh: the
 /// linear element that has its deformation gradient, displacement, pressure and mean prestretch at the centroid.
 wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
+                                        const FieldsView& fields, std::size_t region, std::int32_t element);
+
+/// The same of a state whose displacement and pressure are of one instant: statics, a wall at rest.
+wall::ElementState<double> wall_element(const distributed::DistributedMesh& mesh, const WallModel& model,
                                         const State& state, std::size_t region, std::int32_t element);
 
 /// The linear element that stands for it at one of its points of prestress (prestress_points); that of a linear mesh

@@ -1,4 +1,4 @@
-// Tangent of the flow kernel (rbvms.hpp): derivative of the element residual with respect to (v_{n+1}, p_{n+1}).
+// Tangent of the flow kernel (rbvms.hpp): derivative of the element residual with respect to (v_{n+1}, p_{n+alpha_f}).
 //
 // It is complete but for two choices: tau_M, tau_C and tau_B are held fixed, and so is the mesh (position, mesh
 // velocity); rbvms_shape.hpp adds what the motion of the wall brings. With L = grad v, c the coefficient of the

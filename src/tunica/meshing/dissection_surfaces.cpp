@@ -82,6 +82,29 @@ void move_onto(const Field& field, double reach, geometry::TriangleSurface& surf
     }
 }
 
+/// Flat triangles with corners on a curved surface cut its volume. Moves the points off it by the mean distance of
+/// their triangles, which is that of the middles of their edges.
+void keep_volume(const Field& field, double reach, geometry::TriangleSurface& surface) {
+  std::vector<double> gaps(surface.triangles.size(), 0.0);
+  for (const auto& edge : geometry::edges(surface)) {
+    const double value = field(0.5 * (surface.points[edge.a] + surface.points[edge.b]));
+    if (!(std::abs(value) < reach)) continue;
+    for (const auto t : edge.triangles) gaps[t] -= value / 3;
+  }
+  std::vector<Vec3<double>> normals(surface.points.size(), {{0, 0, 0}});
+  std::vector<double> volumes(surface.points.size(), 0.0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto area = geometry::area_vector(surface, surface.triangles[t]);
+    for (const auto p : surface.triangles[t]) {
+      normals[p] = normals[p] + area;
+      volumes[p] += norm(area) * gaps[t];
+    }
+  }
+  for (std::size_t p = 0; p < surface.points.size(); ++p)
+    if (const double square = dot(normals[p], normals[p]); square > 0)
+      surface.points[p] = surface.points[p] + (volumes[p] / square) * normals[p];
+}
+
 /// Edge length at each point [m]: the surface turns by about 25 degrees over an edge, at most. Normals are those of the
 /// field, since a contour is full of slivers, from which no curvature can be told.
 std::vector<double> sizes_by_curvature(const Field& field, const geometry::TriangleSurface& surface, double smallest,
@@ -108,6 +131,7 @@ geometry::TriangleSurface make_surface(const geometry::DissectionModel& model, c
   const Field field(model, beyond, function);
   auto surface = geometry::zero_surface(grid);
   move_onto(field, spacing, surface);
+  keep_volume(field, 0.2 * spacing, surface);
   for (const auto& o : model.openings())
     surface = geometry::cut_end(surface, {o.centre, o.normal, o.outer_radius + beyond});
   auto sizes = sizes_by_curvature(field, surface, 0.4 * spacing, 2 * spacing);

@@ -31,6 +31,7 @@ struct Scene {
     settings.spacing = spacing;
     settings.percentiles = {50, 95};
     settings.flap = "true_lumen_wall";
+    tell_lumens_apart(run, settings, data, MPI_COMM_WORLD);
     vessel = make_vessel(run, settings, data, MPI_COMM_WORLD);
   }
   FrameFigures figures(std::vector<std::string> stresses = {}, std::vector<double> start = {}) const {

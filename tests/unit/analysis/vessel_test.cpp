@@ -22,6 +22,12 @@ PostSettings every(double spacing) {
   return settings;
 }
 
+/// As a command makes it of the mesh of a case.
+Vessel vessel_of(const RunDescription& run, const PostSettings& settings, mesh::MeshData data) {
+  tell_lumens_apart(run, settings, data, MPI_COMM_WORLD);
+  return make_vessel(run, settings, data, MPI_COMM_WORLD);
+}
+
 /// Of both lumens of a station together.
 SurfaceFigures section(const mesh::MeshData& data, const Station& station) {
   auto surface = station.sections[0];
@@ -31,7 +37,7 @@ SurfaceFigures section(const mesh::MeshData& data, const Station& station) {
 
 TEST(Vessel, StationsOfAStraightTubeAreItsSectionsAtEqualDistances) {
   const auto data = tube();
-  const auto vessel = make_vessel(flow_in_tube(), every(0.014), data, MPI_COMM_WORLD);
+  const auto vessel = vessel_of(flow_in_tube(), every(0.014), data);
   // A fourth one would be 4 mm from the end: that is less than half of the distance.
   ASSERT_EQ(vessel.stations.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -48,11 +54,11 @@ TEST(Vessel, StationsOfAStraightTubeAreItsSectionsAtEqualDistances) {
 
 TEST(Vessel, TurnsWithTheMesh) {
   auto data = tube();
-  const auto straight = make_vessel(flow_in_tube(), every(0.01), data, MPI_COMM_WORLD);
+  const auto straight = vessel_of(flow_in_tube(), every(0.01), data);
   const Vec3<double> axis{{2.0 / 3, -1.0 / 3, 2.0 / 3}}, shift{{0.3, -0.1, 0.2}};
   const auto move = [&](const Vec3<double>& x) { return turned(x, axis, 0.8) + shift; };
   for (auto& x : data.points) x = move(x);
-  const auto moved = make_vessel(flow_in_tube(), every(0.01), data, MPI_COMM_WORLD);
+  const auto moved = vessel_of(flow_in_tube(), every(0.01), data);
   ASSERT_EQ(moved.stations.size(), straight.stations.size());
   for (std::size_t k = 0; k < moved.stations.size(); ++k) {
     EXPECT_NEAR(norm(moved.stations[k].centre - move(straight.stations[k].centre)), 0, 1e-7);
@@ -65,7 +71,7 @@ TEST(Vessel, FlowsFromTheOtherSideWhenTheInletIsNamed) {
   const auto data = tube();
   auto settings = every(0.02);
   settings.inlet = "lumen_outlet";
-  const auto vessel = make_vessel(flow_in_tube(), settings, data, MPI_COMM_WORLD);
+  const auto vessel = vessel_of(flow_in_tube(), settings, data);
   EXPECT_EQ(data.faces[vessel.end].name, "lumen_inlet");
   ASSERT_EQ(vessel.stations.size(), 2U);
   EXPECT_NEAR(vessel.stations[0].centre[2], tube_length - 0.02, 1e-7);
@@ -79,7 +85,7 @@ TEST(Vessel, StationsStayInTheAortaWhereABranchLeaves) {
     auto settings = every(0.5);
     settings.inlet = upwards ? "inlet" : "end";
     settings.end = upwards ? "end" : "inlet";
-    const auto vessel = make_vessel(flow_in_channel(), settings, data, MPI_COMM_WORLD);
+    const auto vessel = vessel_of(flow_in_channel(), settings, data);
     ASSERT_GT(vessel.stations.size(), 8U);
     double last = 0;
     for (const auto& station : vessel.stations) {
@@ -99,13 +105,13 @@ TEST(Vessel, StationsStayInTheAortaWhereABranchLeaves) {
 TEST(Vessel, TheAortaEndsAtTheFarthestOpeningUnlessAnotherIsNamed) {
   const auto data = channel_with_branch(5);  // 7 to the end of the branch, 6 along the channel
   const auto run = flow_in_channel();
-  auto vessel = make_vessel(run, every(0.5), data, MPI_COMM_WORLD);
+  auto vessel = vessel_of(run, every(0.5), data);
   EXPECT_EQ(data.faces[vessel.end].name, "branch");
   EXPECT_GT(vessel.stations.back().centre[0], 5);
   EXPECT_EQ(farthest_opening(data, vessel), vessel.end);
   auto settings = every(0.5);
   settings.end = "end";
-  vessel = make_vessel(run, settings, data, MPI_COMM_WORLD);
+  vessel = vessel_of(run, settings, data);
   for (const auto& station : vessel.stations) EXPECT_LT(station.centre[0], 1);
   // Seen from the end of the branch, the end of the channel is the farther one of the two others.
   vessel.inlet = 2;
@@ -114,7 +120,7 @@ TEST(Vessel, TheAortaEndsAtTheFarthestOpeningUnlessAnotherIsNamed) {
 
 TEST(Vessel, LumensMeetInThePlaneBetweenTheirWalls) {
   const auto data = two_lumens();
-  const auto vessel = make_vessel(flow_in_two_lumens(), every(0.5), data, MPI_COMM_WORLD);
+  const auto vessel = vessel_of(flow_in_two_lumens(), every(0.5), data);
   EXPECT_TRUE(vessel.left_out.empty());
   const auto* lumen = lumen_region(data);
   double volume = 0;
@@ -141,7 +147,7 @@ TEST(Vessel, LumensMeetInThePlaneBetweenTheirWalls) {
 
 TEST(Vessel, SectionsAreSplitWithoutGapOrOverlapWhereverTheLumensMeet) {
   const auto data = two_lumens();
-  auto vessel = make_vessel(flow_in_two_lumens(), every(0.5), data, MPI_COMM_WORLD);
+  auto vessel = vessel_of(flow_in_two_lumens(), every(0.5), data);
   const auto whole = make_stations(
       data,
       [&] {
@@ -172,7 +178,7 @@ TEST(Vessel, OpeningsBelongToTheLumenOfMostOfTheirNodes) {
   auto run = flow_in_two_lumens();
   // Blood also leaves through the plates' faces of the lumen, as if branches began there.
   run.sticking_faces = {"lumen_x_min", "lumen_x_max"};
-  const auto vessel = make_vessel(run, every(0.5), data, MPI_COMM_WORLD);
+  const auto vessel = vessel_of(run, every(0.5), data);
   ASSERT_EQ(vessel.openings.size(), 4U);
   for (const auto& opening : vessel.openings) {
     if (opening.name == "lumen_y_min") {
@@ -194,21 +200,21 @@ TEST(Vessel, SaysWhatItHasNothingFor) {
   auto run = flow_in_two_lumens();
   run.fluid = false;
   const auto data = two_lumens();
-  const auto dry = make_vessel(run, {}, data, MPI_COMM_WORLD);
+  const auto dry = vessel_of(run, {}, data);
   EXPECT_NE(parts(dry).find("stations: the analysis has no flow"), std::string::npos) << parts(dry);
   EXPECT_TRUE(dry.stations.empty() && dry.openings.empty());
 
-  const auto pipe = make_vessel(flow_in_tube(), every(0.02), tube(), MPI_COMM_WORLD);
+  const auto pipe = vessel_of(flow_in_tube(), every(0.02), tube());
   EXPECT_NE(parts(pipe).find("tears: there is no wall"), std::string::npos) << parts(pipe);
 
   auto renamed = data;
   renamed.regions[1].name = "intima";
-  const auto unknown = make_vessel(flow_in_two_lumens(), every(0.5), renamed, MPI_COMM_WORLD);
+  const auto unknown = vessel_of(flow_in_two_lumens(), every(0.5), renamed);
   EXPECT_NE(parts(unknown).find("name those along the lumens in post.lumens"), std::string::npos) << parts(unknown);
   EXPECT_TRUE(unknown.side.empty() && unknown.tears.empty());
   auto settings = every(0.5);
   settings.lumens = frames::LumenWalls{{"intima"}, {"false_lumen_wall"}};
-  EXPECT_TRUE(make_vessel(flow_in_two_lumens(), settings, renamed, MPI_COMM_WORLD).left_out.empty());
+  EXPECT_TRUE(vessel_of(flow_in_two_lumens(), settings, renamed).left_out.empty());
 }
 
 TEST(Vessel, ErrorsNameEverythingThatIsWrongAndWhatThereIs) {
@@ -217,7 +223,7 @@ TEST(Vessel, ErrorsNameEverythingThatIsWrongAndWhatThereIs) {
   settings.inlet = "ascending";
   settings.end = "iliac";
   settings.lumens = frames::LumenWalls{{"media"}, {"false_lumen_wall"}};
-  const auto text = message_of<InputError>([&] { make_vessel(flow_in_two_lumens(), settings, data, MPI_COMM_WORLD); });
+  const auto text = message_of<InputError>([&] { vessel_of(flow_in_two_lumens(), settings, data); });
   for (const char* part : {"post.inlet", "'ascending'", "post.end", "'iliac'", "lumen_z_min, lumen_z_max",
                            "post.lumens.true_lumen", "'media'", "true_lumen_wall, false_lumen_wall"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
@@ -227,17 +233,13 @@ TEST(Vessel, RefusesVesselsWithoutAWayThrough) {
   const auto data = tube();
   auto settings = every(0.01);
   settings.end = "lumen_inlet";
-  EXPECT_NE(message_of<InputError>([&] {
-              make_vessel(flow_in_tube(), settings, data, MPI_COMM_WORLD);
-            }).find("post.end: is the inlet"),
+  EXPECT_NE(message_of<InputError>([&] { vessel_of(flow_in_tube(), settings, data); }).find("post.end: is the inlet"),
             std::string::npos);
   auto run = flow_in_tube();
   run.sticking_faces.push_back("lumen_outlet");
-  EXPECT_NE(message_of<InputError>([&] {
-              make_vessel(run, every(0.01), data, MPI_COMM_WORLD);
-            }).find("the lumen has no other opening"),
+  EXPECT_NE(message_of<InputError>([&] { vessel_of(run, every(0.01), data); }).find("the lumen has no other opening"),
             std::string::npos);
-  const auto text = message_of<InputError>([&] { make_vessel(flow_in_tube(), every(0.2), data, MPI_COMM_WORLD); });
+  const auto text = message_of<InputError>([&] { vessel_of(flow_in_tube(), every(0.2), data); });
   EXPECT_NE(text.find("leaves no station on an aorta of 60 mm"), std::string::npos) << text;
 }
 

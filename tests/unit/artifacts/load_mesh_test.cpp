@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "shared_folder.hpp"
+#include "tunica/mesh/boundary.hpp"
 
 namespace tunica::artifacts {
 namespace {
@@ -30,6 +33,26 @@ TEST(LoadMesh, ReportsRegionsAndTheirQuality) {
   EXPECT_FALSE(mesh.data.twins.empty());
   ASSERT_EQ(mesh.report.size(), 2u);
   EXPECT_TRUE(mesh.report[0].starts_with("lumen: ") && mesh.report[1].starts_with("wall: "));
+}
+
+double volume(const mesh::MeshData& data, const std::string& region) {
+  double sum = 0;
+  for (const auto& r : data.regions)
+    for (auto e = r.first_element; e < r.end_element && r.name == region; ++e)
+      sum += mesh::volume(data.points, data.tetrahedra[static_cast<std::size_t>(e)]);
+  return sum;
+}
+
+// With 8, 12 and 16 cells around, 3, 4 and 6 lie across the lumen.
+TEST(LoadMesh, ATubeHasTheVolumeOfTheRoundOne) {
+  for (const char* cells :
+       {"cells_around: 8, cells_radial: 1", "cells_around: 12, cells_radial: 1", "cells_around: 16, cells_radial: 1"}) {
+    std::string text = tube + sound;
+    text.replace(text.find("cells_around: 8"), 15, cells);
+    const auto data = load_mesh(case_file::parse_case(text, "case.yaml")).data;
+    EXPECT_NEAR(volume(data, "lumen") / (M_PI * 25e-6 * 0.02), 1, 1e-3) << cells;
+    EXPECT_NEAR(volume(data, "wall") / (M_PI * 11e-6 * 0.02), 1, 1e-3) << cells;
+  }
 }
 
 TEST(LoadMesh, ReportsAllWrongConditionsAtOnce) {

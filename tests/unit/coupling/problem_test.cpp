@@ -7,6 +7,7 @@
 
 #include "small_cases.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/coupling/wall_element.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::coupling {
@@ -246,6 +247,31 @@ TEST(Problem, StaticBarHasTheStretchOfUniaxialTension) {
     }
     EXPECT_EQ(largest(mesh, state.velocity_pressure), 0.0);
     EXPECT_EQ(state.time, 0.0);
+  }
+}
+
+// A light bar under a growing pull: its stress is the pull of the instant at which forces balance, not made of the
+// displacement at the end of the step and the pressure before it.
+TEST(Problem, StressOfTheWallIsThatOfOneInstant) {
+  constexpr double stress = 100.0, ramp = 10 * dt;
+  const auto mesh =
+      distributed::distribute(mesh::box(2, 1, 1, {{0.02, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
+  auto input = bar_input(wall::Element::mixed, stress);
+  input.wall->density = 1e-3;
+  std::get<bc::Traction>(input.boundary.conditions[3].second).course.ramp_time = ramp;
+  const auto scheme = assembly::TimeScheme::generalised_alpha(dt, input.rho_infinity);
+  Problem problem(mesh, input);
+  auto state = problem.initial_state();
+  for (int step = 0; step < 4; ++step) {
+    const auto report = problem.advance(state, dt);
+    ASSERT_TRUE(report.converged) << report.failure;
+    const double pull = 0.5 * stress * (1 - std::cos(M_PI * (step + scheme.alpha_f) * dt / ramp));
+    const auto fields = problem.fields_with_pressure(state);
+    for (std::int32_t e = 0; e < mesh.regions[0].owned_elements; ++e) {
+      const auto sigma =
+          cauchy_stress(problem.wall_model(), 0, e, wall_element(mesh, problem.wall_model(), fields, 0, e));
+      EXPECT_NEAR(sigma[0], pull, 0.01 * pull) << step;
+    }
   }
 }
 

@@ -6,7 +6,12 @@
 #include <cmath>
 
 #include "run_and_post.hpp"
+#include "tunica/analysis/lumens.hpp"
+#include "tunica/analysis/vessel.hpp"
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/case/case.hpp"
 #include "tunica/files/csv_file.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/meshing/geometry.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "verification/fluid/flow_case.hpp"
@@ -96,6 +101,30 @@ TEST(PostDissection, LumensTearsAndMass) {
   for (const auto& s : report["stations"]) with_false += s.contains("false_lumen");
   EXPECT_GT(with_false, 10);
   EXPECT_FALSE(report["stations"][0].contains("false_lumen"));
+}
+
+// What is cut out of quadratic results are the tears of the run, which knows the lumens by the corners of its elements:
+// at the rims of a coarse mesh the nodes on edges would make more of them.
+TEST(PostDissection, QuadraticElementsHaveTheTearsOfTheRun) {
+  const test::SharedFolder folder;
+  make_mesh(folder);
+  const auto file = folder.write("case.yaml", case_text());
+  const auto c = case_file::read_case(file).value;
+  const auto run = case_file::describe(c);
+  auto data = artifacts::load_meshes(c.meshes, {}).data;
+  analysis::tell_lumens_apart(run, *c.post, data, MPI_COMM_WORLD);
+  mesh::add_edge_nodes(data);
+  const auto lumens = analysis::find_lumens(distributed::distribute(data, MPI_COMM_WORLD), run, *c.post);
+  ASSERT_TRUE(lumens);
+  ASSERT_EQ(lumens->tears.size(), 2u);
+  const auto vessel = analysis::make_vessel(run, *c.post, mesh::subdivided(data), MPI_COMM_WORLD);
+  ASSERT_EQ(vessel.tears.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    say("  tear %zu: %.2f mm^2 in the run, %.2f mm^2 in the fields\n", k + 1, 1e6 * lumens->tears[k].area,
+        1e6 * vessel.tears[k].area);
+    EXPECT_NEAR(vessel.tears[k].area, lumens->tears[k].area, 1e-2 * lumens->tears[k].area);
+    EXPECT_NEAR(norm(vessel.tears[k].centre - lumens->tears[k].centre), 0, 1e-3);
+  }
 }
 
 std::string rigid_case_text() {

@@ -130,8 +130,9 @@ void Post::read() {
   settings_ = settings_of(case_);
   results_ = request_.results.value_or(case_.output.directory);
   folder_ = post_folder(case_, request_);
+  parallel::agree(comm_, [&] { data_ = artifacts::load_meshes(case_.meshes, {}).data; });
+  analysis::tell_lumens_apart(case_file::describe(case_), settings_, data_, comm_);
   parallel::agree(comm_, [&] {
-    data_ = artifacts::load_meshes(case_.meshes, {}).data;
     if (case_.elements == case_file::Elements::quadratic) {
       mesh::add_edge_nodes(data_);
       data_ = mesh::subdivided(data_);
