@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "version.hpp"
 
@@ -25,7 +26,7 @@ void add_validate(CLI::App& app) {
   const auto request = std::make_shared<stages::ValidateRequest>();
   const auto folder = std::make_shared<std::string>("validation"),
              elements = std::make_shared<std::string>("quadratic");
-  command->add_option("names", request->names, "Benchmarks; all that do not take hours when left out");
+  command->add_option("names", request->names, "Benchmarks; all that do not take long when left out");
   const auto list = std::make_shared<bool>(false);
   command->add_flag("--list", *list, "Print the names and stop");
   command->add_flag("--full", request->full, "On meshes and for times that resolve them");
@@ -42,6 +43,10 @@ void add_validate(CLI::App& app) {
     request->elements = *elements == "linear" ? case_file::Elements::linear : case_file::Elements::quadratic;
     request->run_case = stages::run_case;
     request->program = {version(), commit()};
+    request->make_mesh = [](const std::filesystem::path& file) {
+      const auto parsed = case_file::read_mesh_case(file);
+      stages::mesh_to_files(parsed.value, true, [](const std::string&) {});
+    };
     throw CLI::RuntimeError(in_session([&] {
       const auto outcome = stages::validate_program(MPI_COMM_WORLD, *request, stdout);
       return outcome.signal != 0 ? 128 + outcome.signal : outcome.passed ? 0 : 3;

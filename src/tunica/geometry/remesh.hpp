@@ -36,7 +36,8 @@ struct RemeshOptions {
 /// Splits, collapses and flips edges and moves points along the surface (Botsch & Kobbelt 2004; sizes as in Dunyach et
 /// al. 2013) until edges have the wanted length. Points stay on the original, each on its own side of a thin sheet,
 /// those of open edges and creases on these lines, ends and crossings of lines in place; in the end points move off it
-/// by the mean deviation of their triangles, so that the volume is kept. The topology never changes.
+/// by the mean deviation of their triangles or lines, so that volumes and the areas of holes are kept. The topology
+/// never changes.
 ///
 /// `start`: manifold surface near the original, often itself.
 Remeshed remesh(const Remeshed& start, const Original& original, const RemeshOptions& options = {});

@@ -357,8 +357,8 @@ class Remesher {
     return at ? at.place - middle : Vec3<double>{{0, 0, 0}};
   }
 
-  /// Mean vector from an edge of the rim to the original, by Simpson's rule.
-  Vec3<double> rim_deviation(Edge e, const Vec3<double>& middle) const {
+  /// Mean vector from an edge of a rim or crease to the original, by Simpson's rule.
+  Vec3<double> line_deviation(Edge e, const Vec3<double>& middle) const {
     Vec3<double> sum = 4.0 * middle;
     for (const int end : {0, 1}) {
       const auto v = mesh_.vertex(e, end);
@@ -377,18 +377,18 @@ class Remesher {
     for (const auto v : mesh_.vertices()) {
       const auto n = normal(v);
       double sum = 0, weights = 0;
-      Vec3<double> rim_sum{{0, 0, 0}};
+      Vec3<double> line_sum{{0, 0, 0}};
       for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
-        if (mesh_.is_border(mesh_.edge(h))) rim_sum = rim_sum + 0.5 * rim_deviation(mesh_.edge(h), gap[mesh_.edge(h)]);
+        if (on_line(mesh_.edge(h))) line_sum = line_sum + 0.5 * line_deviation(mesh_.edge(h), gap[mesh_.edge(h)]);
         if (mesh_.is_border(h)) continue;
         const double weight = norm(area_of(mesh_.face(h))) / 3;
         for (const auto side : mesh_.halfedges_around_face(h)) sum += weight * dot(gap[mesh_.edge(side)], n);
         weights += 3 * weight;
       }
       const int count = lines_at(v);
-      if (is_corner(count) || (count > 0 && !mesh_.is_border(v))) continue;
+      if (is_corner(count)) continue;
       if (count > 0)
-        moves.emplace_back(v, mesh_.point(v) + rim_sum);
+        moves.emplace_back(v, mesh_.point(v) + line_sum);
       else if (weights > 0)
         moves.emplace_back(v, mesh_.point(v) + (sum / weights) * n);
     }

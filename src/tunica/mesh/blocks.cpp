@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace tunica::mesh::section {
 
@@ -28,17 +30,32 @@ void Blocks::add(const std::vector<double>& x, const std::vector<double>& y) {
   });
 }
 
-Section Blocks::finish(const std::function<std::string(const Point&, const Point&)>& name) const {
+namespace {
+
+/// By x, then by the distance from the mirror. What differs by rounding alone is the same.
+std::vector<Point> sorted(std::vector<Point> points, double mirror) {
+  const double grid = 1e-9 * std::abs(points.back()[0] - points.front()[0]);
+  const auto key = [&](const Point& p) {
+    return std::tuple(std::floor(p[0] / grid + 0.37), std::floor(std::abs(p[1] - mirror) / grid + 0.37), p[1]);
+  };
+  std::sort(points.begin(), points.end(), [&](const Point& a, const Point& b) { return key(a) < key(b); });
+  return points;
+}
+
+}  // namespace
+
+Section Blocks::finish(const std::function<std::string(const Point&, const Point&)>& name,
+                       std::optional<double> mirror) const {
   Section s;
   auto number = number_;
-  for (auto& [point, index] : number) {
-    index = std::ssize(s.points);
-    s.points.push_back(point);
-  }
+  for (const auto& [point, index] : number) s.points.push_back(point);
+  if (mirror) s.points = sorted(std::move(s.points), *mirror);
+  for (Index i = 0; i < std::ssize(s.points); ++i) number.at(s.points[static_cast<std::size_t>(i)]) = i;
   std::map<std::array<Index, 2>, int> edges;  // directed, cells to their left
   for (const auto& cell : cells_) {
     std::array<Index, 4> n{};
     for (std::size_t k = 0; k < 4; ++k) n[k] = number.at(cell[k]);
+    std::rotate(n.begin(), std::min_element(n.begin(), n.end()), n.end());  // that is where a tie is cut
     add_quadrilateral(s, n[0], n[1], n[2], n[3]);
     for (std::size_t k = 0; k < 4; ++k) edges[{n[k], n[(k + 1) % 4]}] = 1;
   }

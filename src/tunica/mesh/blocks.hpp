@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "tunica/mesh/section.hpp"
@@ -23,8 +24,10 @@ class Blocks {
   void add(const std::vector<double>& x, const std::vector<double>& y);
 
   /// Points sorted by x and y, so that the sections of two regions number their common outline in the same order.
-  /// Edges of the outline get the name that `name` gives for their ends.
-  Section finish(const std::function<std::string(const Point&, const Point&)>& name) const;
+  /// Edges of the outline get the name that `name` gives for their ends. `mirror`: a line y = mirror along edges; where
+  /// points lie alike on both sides of it, cells are cut alike too, as are the prisms that are made of them.
+  Section finish(const std::function<std::string(const Point&, const Point&)>& name,
+                 std::optional<double> mirror = {}) const;
 
  private:
   std::map<Point, Index> number_;

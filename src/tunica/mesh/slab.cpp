@@ -85,12 +85,14 @@ section::Section lumen_section(const FlagSizes& z, const FlagGrid& g, const std:
   blocks.add(static_cast<int>(g.outer.size()) - 1, g.rings, [&](int k, int j) {  // outward and clockwise is mirrored
     return ring_point(z, g, g.outer.size() - 1 - static_cast<std::size_t>(k), radial[static_cast<std::size_t>(j)]);
   });
-  return blocks.finish([&](const Point& a, const Point& b) -> std::string {
-    if (a[0] == 0 && b[0] == 0) return "inlet";
-    if (a[0] == z.length && b[0] == z.length) return "outlet";
-    if ((a[1] == 0 && b[1] == 0) || (a[1] == z.height && b[1] == z.height)) return "channel";
-    return on_cylinder(z, a) && on_cylinder(z, b) ? "cylinder" : "flag_lumen";
-  });
+  return blocks.finish(
+      [&](const Point& a, const Point& b) -> std::string {
+        if (a[0] == 0 && b[0] == 0) return "inlet";
+        if (a[0] == z.length && b[0] == z.length) return "outlet";
+        if ((a[1] == 0 && b[1] == 0) || (a[1] == z.height && b[1] == z.height)) return "channel";
+        return on_cylinder(z, a) && on_cylinder(z, b) ? "cylinder" : "flag_lumen";
+      },
+      z.y);
 }
 
 /// Within the square the flag's cells follow the first ring of both sides, and the arc of the cylinder.
@@ -105,9 +107,11 @@ section::Section flag_section(const FlagSizes& z, const FlagGrid& g, const std::
     return t == 1.0 ? Point{g.square.back(), y} : Point{(1 - t) * x + t * g.square.back(), y};
   });
   blocks.add(g.along_flag, g.flag);
-  return blocks.finish([&](const Point& a, const Point& b) -> std::string {
-    return on_cylinder(z, a) && on_cylinder(z, b) ? "flag_root" : "flag_wall";
-  });
+  return blocks.finish(
+      [&](const Point& a, const Point& b) -> std::string {
+        return on_cylinder(z, a) && on_cylinder(z, b) ? "flag_root" : "flag_wall";
+      },
+      z.y);
 }
 
 /// Nodes of the wall that lie where a node of the lumen does. Both were made by the same arithmetic.

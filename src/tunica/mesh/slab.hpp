@@ -9,6 +9,8 @@ namespace tunica::mesh {
 /// A channel [0, length] x [0, height] with a round cylinder and an elastic flag behind it, the domain of Turek & Hron
 /// (2006). Lumen ("lumen": faces inlet, outlet, channel, cylinder, flag_lumen) and flag ("flag": flag_root on the
 /// cylinder, flag_wall), whose surfaces have twin nodes; the sides are side_low and side_high, flag_low and flag_high.
+/// Cells above the flag's axis are cut as the mirror image of those below: cut in one direction everywhere, they load
+/// the flag by themselves.
 struct FlagSizes {
   double length = 2.5, height = 0.41;       ///< of the channel [m]
   double x = 0.2, y = 0.2, radius = 0.05;   ///< of the cylinder [m]

@@ -1,5 +1,8 @@
 #include "tunica/geometry/remesh.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "small_surfaces.hpp"
 #include "tunica/geometry/caps.hpp"
 #include "tunica/geometry/self_intersections.hpp"
@@ -87,6 +90,27 @@ TEST(Remesh, KeepsCreases) {
     EXPECT_NEAR(length, 4 * 20e-3, 1e-9);
     EXPECT_NEAR(tube_volume(mesh.surface), 1e-4 * 20e-3, 1e-9);
   }
+}
+
+// A hole with a sharp rim: a polygon on its circle would be up to 9 % too small.
+TEST(Remesh, KeepsTheAreaOfSharpHoles) {
+  constexpr double wide = 5e-3, hole = 2e-3, plate = 8e-3;  // m
+  auto surface = tube(wide, 20e-3, 96, 80, 0);
+  for (auto& p : surface.points) {
+    const double along = p[2], radius = std::clamp(wide + plate - along, hole, wide);
+    p = {{p[0] * radius / wide, p[1] * radius / wide, along < plate ? along : std::max(plate, along - wide + hole)}};
+  }
+  const auto mesh = remeshed(surface, 1.5e-3);
+  double area = 0;
+  int points = 0;
+  for (const auto& [a, b] : mesh.creases) {
+    const auto &p = mesh.surface.points[a], &q = mesh.surface.points[b];
+    if (std::hypot(p[0], p[1]) > 0.5 * (wide + hole)) continue;
+    area += 0.5 * std::abs(p[0] * q[1] - p[1] * q[0]);
+    ++points;
+  }
+  EXPECT_LT(points, 16);
+  EXPECT_NEAR(area / (M_PI * hole * hole), 1, 4e-3);
 }
 
 TEST(Remesh, EachSideOfAThinSheetStaysOnItsOwn) {

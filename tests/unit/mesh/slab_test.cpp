@@ -54,6 +54,31 @@ TEST(FlagBehindCylinder, BothSidesOfTheInterfaceConform) {
   for (const auto& t : wall) EXPECT_TRUE(lumen.contains({host.at(t[0]), host.at(t[1]), host.at(t[2])}));
 }
 
+// In a channel that is its own mirror image about the flag's axis, so is the mesh, element by element.
+TEST(FlagBehindCylinder, IsItsOwnMirrorImage) {
+  for (const int refinement : {1, 2}) {
+    const auto mesh = flag_behind_cylinder({.height = 0.4, .refinement = refinement});
+    const auto key = [](const Vec3<double>& p) {
+      return std::array{std::llround(1e9 * p[0]), std::llround(1e9 * p[1]), std::llround(1e9 * p[2])};
+    };
+    using Corners = std::multiset<std::array<long long, 3>>;
+    std::set<Corners> elements;
+    const auto corners = [&](const auto& element, bool mirrored) {
+      Corners result;
+      for (const auto n : element) {
+        auto p = mesh.points[n];
+        if (mirrored) p[1] = 0.4 - p[1];
+        result.insert(key(p));
+      }
+      return result;
+    };
+    for (const auto& e : mesh.tetrahedra) elements.insert(corners(e, false));
+    int missing = 0;
+    for (const auto& e : mesh.tetrahedra) missing += !elements.contains(corners(e, true));
+    EXPECT_EQ(missing, 0) << "of " << mesh.tetrahedra.size();
+  }
+}
+
 TEST(FlagBehindCylinder, RefusesWhatDoesNotFit) {
   EXPECT_THROW(flag_behind_cylinder({.refinement = 0}), InputError);
   EXPECT_THROW(flag_behind_cylinder({.tip = 3.0}), InputError);

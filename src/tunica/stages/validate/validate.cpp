@@ -8,6 +8,7 @@
 
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/lock.hpp"
@@ -49,8 +50,15 @@ bool has_region(const mesh::MeshData& data, mesh::RegionKind kind) {
   return std::any_of(data.regions.begin(), data.regions.end(), [&](const auto& r) { return r.kind == kind; });
 }
 
-/// Writes case and mesh, which are the same every time. Not collective.
-void write_case(const fs::path& folder, const Benchmark& benchmark, const Variant& variant) {
+/// Does the file say something else, or is it not there? Writes it then.
+bool renew(const fs::path& file, const std::string& content) {
+  if (fs::exists(file) && text::read(file) == content) return false;
+  files::write_atomically(file, content);
+  return true;
+}
+
+/// Writes case and mesh, which are the same every time; meshes what is to be meshed and has not been. Not collective.
+void write_case(const fs::path& folder, const Benchmark& benchmark, const Variant& variant, const MakeMesh& make_mesh) {
   const auto posed = benchmark.pose(variant);
   fs::create_directories(folder);
   if (posed.mesh) {
@@ -59,7 +67,12 @@ void write_case(const fs::path& folder, const Benchmark& benchmark, const Varian
     if (has_region(*posed.mesh, mesh::RegionKind::wall))
       mesh_io::write_simvascular(folder / "wall", *posed.mesh, mesh::RegionKind::wall, 1.0);
   }
-  for (const auto& [name, content] : posed.files) files::write_atomically(folder / name, content);
+  bool renewed = false;
+  for (const auto& [name, content] : posed.files) renewed = renew(folder / name, content) || renewed;
+  if (fs::exists(folder / "mesh.yaml") && (renewed || !fs::exists(folder / "mesh" / "meshes.yaml"))) {
+    fs::remove(folder / "mesh" / "meshes.yaml");  // so that a mesh of files that were cut off is not taken for theirs
+    make_mesh(folder / "mesh.yaml");
+  }
   files::write_atomically(folder / "case.yaml", posed.case_text);
 }
 
@@ -107,7 +120,7 @@ class Validation {
     const auto& benchmark = finding.benchmark;
     const fs::path folder = request_.folder / benchmark.name;
     say(fmt::format("{}: {}", benchmark.name, benchmark.title));
-    parallel::on_root(comm_, [&] { write_case(folder, benchmark, variant_); });
+    parallel::on_root(comm_, [&] { write_case(folder, benchmark, variant_, request_.make_mesh); });
     const auto started = std::chrono::steady_clock::now();
     int signal = 0;
     try {

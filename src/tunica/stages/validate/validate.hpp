@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,17 @@
 
 namespace tunica::stages {
 
+/// Makes the mesh that a file asks for, over one that is there, as `tunica mesh` does. Not collective.
+using MakeMesh = std::function<void(const std::filesystem::path& mesh_file)>;
+
 struct ValidateRequest {
-  std::vector<std::string> names;  ///< of benchmarks; empty: all that do not take hours
+  std::vector<std::string> names;  ///< of benchmarks; empty: all that do not take long
   bool full = false;               ///< meshes that resolve them
   case_file::Elements elements = case_file::Elements::quadratic;
   std::filesystem::path folder = "validation";
   RunCase run_case;
   artifacts::ProgramVersion program;
+  MakeMesh make_mesh;
 };
 
 struct ValidateOutcome {

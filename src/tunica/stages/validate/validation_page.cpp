@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,9 @@ namespace page = drawing::page;
 
 double Finding::deviation(std::size_t figure) const {
   const auto& r = benchmark.references[figure];
-  return (values[figure] - r.value) / std::abs(r.scale != 0 ? r.scale : r.value);
+  const auto [low, high] = std::minmax({r.value, r.measured.value_or(r.value)});
+  const double nearest = std::clamp(values[figure], low, high);
+  return (values[figure] - nearest) / std::abs(r.scale != 0 ? r.scale : r.value);
 }
 
 double Finding::tolerance(std::size_t figure) const {
@@ -22,7 +25,11 @@ double Finding::tolerance(std::size_t figure) const {
   return variant.full ? r.full : r.quick;
 }
 
-bool Finding::passed(std::size_t figure) const { return std::abs(deviation(figure)) <= tolerance(figure); }
+bool Finding::judged(std::size_t figure) const { return std::isfinite(tolerance(figure)); }
+
+bool Finding::passed(std::size_t figure) const {
+  return !judged(figure) || std::abs(deviation(figure)) <= tolerance(figure);
+}
 
 bool Finding::passed() const {
   if (!failure.empty() || values.size() != benchmark.references.size()) return false;
@@ -31,10 +38,37 @@ bool Finding::passed() const {
   return true;
 }
 
+std::string Finding::verdict() const {
+  if (!passed()) return "missed";
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (judged(k)) return "passed";
+  return "not judged";
+}
+
+namespace {
+
+std::string verdict_of(const Finding& f, std::size_t k) {
+  return !f.judged(k) ? "not judged" : f.passed(k) ? "passed" : "missed";
+}
+
+/// What a page says, a miss in bold.
+std::string marked(const std::string& verdict) { return verdict == "missed" ? "<b>missed</b>" : verdict; }
+
+std::string tolerance_text(const Finding& f, std::size_t k) {
+  return f.judged(k) ? fmt::format("{:g} %", 100 * f.tolerance(k)) : "";
+}
+
+std::string reference_text(const Reference& r) {
+  return r.measured ? fmt::format("{:.5g}, measured {:.5g}", r.value, *r.measured) : fmt::format("{:.5g}", r.value);
+}
+
+}  // namespace
+
 std::string line(const Finding& f, std::size_t k) {
   const auto& r = f.benchmark.references[k];
-  return fmt::format("{}: {:.5g} {}, reference {:.5g}, {:+.2f} % ({:g} % allowed): {}", r.name, f.values[k], r.unit,
-                     r.value, 100 * f.deviation(k), 100 * f.tolerance(k), f.passed(k) ? "passed" : "MISSED");
+  const auto allowed = f.judged(k) ? fmt::format(" ({} allowed)", tolerance_text(f, k)) : "";
+  return fmt::format("{}: {:.5g} {}, reference {}, {:+.2f} %{}: {}", r.name, f.values[k], r.unit, reference_text(r),
+                     100 * f.deviation(k), allowed, verdict_of(f, k) == "missed" ? "MISSED" : verdict_of(f, k));
 }
 
 namespace {
@@ -55,8 +89,8 @@ std::string section(const Finding& f) {
   for (std::size_t k = 0; k < f.values.size(); ++k) {
     const auto& r = f.benchmark.references[k];
     rows.push_back({page::escaped(r.name), fmt::format("{:.5g} {}", f.values[k], page::escaped(r.unit)),
-                    fmt::format("{:.5g}", r.value), fmt::format("{:+.2f} %", 100 * f.deviation(k)),
-                    fmt::format("{:g} %", 100 * f.tolerance(k)), f.passed(k) ? "passed" : "<b>missed</b>"});
+                    reference_text(r), fmt::format("{:+.2f} %", 100 * f.deviation(k)), tolerance_text(f, k),
+                    marked(verdict_of(f, k))});
   }
   text += page::table({"", "value", "reference", "deviation", "allowed", ""}, rows);
   if (f.plot) text += page::drawing(drawing::draw_plot(f.plot->series, f.plot->options));
@@ -73,7 +107,9 @@ nlohmann::ordered_json to_json(const Finding& f) {
                        {"reference", r.value},
                        {"deviation", f.deviation(k)},
                        {"tolerance", f.tolerance(k)},
+                       {"judged", f.judged(k)},
                        {"passed", f.passed(k)}});
+    if (r.measured) figures.back()["measured"] = *r.measured;
   }
   return {{"name", f.benchmark.name}, {"source", f.benchmark.source},
           {"full", f.variant.full},   {"elements", f.elements},
@@ -87,20 +123,21 @@ nlohmann::ordered_json to_json(const Finding& f) {
 
 void write_page(const std::filesystem::path& folder, const std::vector<Finding>& findings) {
   std::string html = page::begin("Validation"),
-              csv = "benchmark,figure,unit,value,reference,deviation,tolerance,passed\n";
+              csv = "benchmark,figure,unit,value,reference,measured,deviation,tolerance,passed\n";
   std::vector<std::vector<std::string>> summary;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& f : findings)
     summary.push_back({fmt::format("<a href=\"#{}\">{}</a>", f.benchmark.name, f.benchmark.name),
-                       page::escaped(f.benchmark.title), f.passed() ? "passed" : "<b>missed</b>"});
+                       page::escaped(f.benchmark.title), marked(f.verdict())});
   html += page::table({"benchmark", "", ""}, summary);
   for (const auto& f : findings) {
     html += section(f);
     json.push_back(to_json(f));
     for (std::size_t k = 0; k < f.values.size(); ++k) {
       const auto& r = f.benchmark.references[k];
-      csv += fmt::format("{},\"{}\",{},{:.10g},{:.10g},{:.6g},{:.6g},{}\n", f.benchmark.name, r.name, r.unit,
-                         f.values[k], r.value, f.deviation(k), f.tolerance(k), f.passed(k) ? 1 : 0);
+      csv += fmt::format("{},\"{}\",{},{:.10g},{:.10g},{},{:.6g},{:.6g},{}\n", f.benchmark.name, r.name, r.unit,
+                         f.values[k], r.value, r.measured ? fmt::format("{:.10g}", *r.measured) : "", f.deviation(k),
+                         f.tolerance(k), f.passed(k) ? 1 : 0);
     }
   }
   files::write_atomically(folder / "validation.html", html + page::end());

@@ -19,8 +19,10 @@ struct Finding {
   /// Deviation of a figure, relative as its reference says.
   double deviation(std::size_t figure) const;
   double tolerance(std::size_t figure) const;
-  bool passed(std::size_t figure) const;
+  bool judged(std::size_t figure) const;
+  bool passed(std::size_t figure) const;  ///< within its tolerance, or not judged
   bool passed() const;
+  std::string verdict() const;  ///< "passed", "missed" or "not judged"
 };
 
 /// "u_x of the tip: 2.27e-05 m, reference 2.27e-05, 0.12 % (1 % allowed): passed".
