@@ -20,6 +20,7 @@ void add_check(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_converge(CLI::App& app);
 void add_fibres(CLI::App& app);
+void add_fit(CLI::App& app);
 void add_image(CLI::App& app);
 void add_material(CLI::App& app);
 void add_mesh(CLI::App& app);

@@ -31,6 +31,7 @@ void add_schema(CLI::App& app) {
   };
   const auto kinds = std::make_shared<std::vector<Kind>>(std::vector<Kind>{
       {"material", [] { return case_file::material_description(); }},
+      {"fit", [] { return case_file::fit_description(); }},
       {"mesh", [] { return case_file::mesh_description(); }},
       {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},

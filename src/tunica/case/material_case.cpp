@@ -18,23 +18,6 @@ namespace {
 
 // --- loading ------------------------------------------------------------------------------------------------------
 
-Schema<Direction> direction_schema() {
-  return Schema<Direction>("direction",
-                           "A direction in the fibre frame: `e1`, `{angle: 30 deg}`, `{vector: [1, 0, 1]}`.")
-      .one_of()
-      .alternative(Schema<Axis<0>>("e1", "Circumferential."))
-      .alternative(Schema<Axis<1>>("e2", "Longitudinal."))
-      .alternative(Schema<Axis<2>>("e3", "Radial."))
-      .quantity("angle", config::emplace<double>, config::dimension::angle,
-                config::range(-3.1415926535898, 3.1415926535898), "In the plane of e1 and e2, from e1 towards e2")
-      .quantities("vector", config::emplace<Vec3<double>>, dimension::none, config::anything(),
-                  "Components along e1, e2, e3, of any length but 0")
-      .check([](const Direction& d, Problems& problems) {
-        if (!(norm(vector_of(d)) > 0.0))
-          problems.add("vector", "has length zero", "give a direction, such as [1, 0, 1]");
-      });
-}
-
 /// Of stretches, which begin at 1, or of shear, which begins at 0.
 Schema<LoadPath> path_schema(bool shear) {
   const config::Range allowed = shear ? config::range(-20, 20) : config::range(0.05, 20);
@@ -57,21 +40,10 @@ Schema<Uniaxial> uniaxial_schema() {
       .include(&Uniaxial::stretch, path_schema(false));
 }
 
-void check_sheet(const Sheet& s, Problems& problems) {
-  const Vec3<double> a = vector_of(s.along), b = vector_of(s.across);
-  if (!(std::abs(dot(a, b)) <= 1e-3 * norm(a) * norm(b)))
-    problems.add("across", "is not perpendicular to `along`", "give two perpendicular directions");
-}
-
 template <class T>
 Schema<T> sheet_schema(const char* name, const char* help, const char* along, const char* across) {
-  return Schema<T>(name, help)
-      .section("along", &Sheet::along, direction_schema(), along)
-      .by_default("e1")
-      .section("across", &Sheet::across, direction_schema(), across)
-      .by_default("e2")
-      .include(&Sheet::load, path_schema(std::is_same_v<T, SimpleShear>))
-      .check(check_sheet);
+  return sheet_axes_schema<T>(name, help, along, across)
+      .include(&Sheet::load, path_schema(std::is_same_v<T, SimpleShear>));
 }
 
 Schema<Biaxial> biaxial_schema() {
@@ -163,8 +135,10 @@ Schema<MaterialTest> test_schema() {
   return Schema<MaterialTest>("test", "One test of a specimen.")
       .include(&MaterialTest::loading, loading_schema())
       .choice("measure", &MaterialTest::measure,
-              {{"cauchy", StressMeasure::cauchy}, {"first_piola_kirchhoff", StressMeasure::first_piola_kirchhoff}},
-              "Stress that is drawn, and that the measured data hold: per present area, or per area at rest")
+              {{"cauchy", StressMeasure::cauchy},
+               {"first_piola_kirchhoff", StressMeasure::first_piola_kirchhoff},
+               {"second_piola_kirchhoff", StressMeasure::second_piola_kirchhoff}},
+              "Stress that is drawn, and that the measured data hold: per present area, per area at rest, or S")
       .by_default()
       .section("data", &MaterialTest::data, data_schema(), "Measured points; none when left out")
       .check(check_test);
@@ -195,6 +169,29 @@ void check_case(const MaterialCase& c, Problems& problems) {
 }
 
 }  // namespace
+
+Schema<Direction> direction_schema() {
+  return Schema<Direction>("direction",
+                           "A direction in the fibre frame: `e1`, `{angle: 30 deg}`, `{vector: [1, 0, 1]}`.")
+      .one_of()
+      .alternative(Schema<Axis<0>>("e1", "Circumferential."))
+      .alternative(Schema<Axis<1>>("e2", "Longitudinal."))
+      .alternative(Schema<Axis<2>>("e3", "Radial."))
+      .quantity("angle", config::emplace<double>, config::dimension::angle,
+                config::range(-3.1415926535898, 3.1415926535898), "In the plane of e1 and e2, from e1 towards e2")
+      .quantities("vector", config::emplace<Vec3<double>>, dimension::none, config::anything(),
+                  "Components along e1, e2, e3, of any length but 0")
+      .check([](const Direction& d, Problems& problems) {
+        if (!(norm(vector_of(d)) > 0.0))
+          problems.add("vector", "has length zero", "give a direction, such as [1, 0, 1]");
+      });
+}
+
+void check_perpendicular(const SheetAxes& axes, Problems& problems) {
+  const Vec3<double> a = vector_of(axes.along), b = vector_of(axes.across);
+  if (!(std::abs(dot(a, b)) <= 1e-3 * norm(a) * norm(b)))
+    problems.add("across", "is not perpendicular to `along`", "give two perpendicular directions");
+}
 
 Vec3<double> vector_of(const Direction& direction) {
   if (const auto* v = std::get_if<Vec3<double>>(&direction)) return *v;

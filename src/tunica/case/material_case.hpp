@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tunica/config/schema.hpp"
+#include "tunica/wall/material_paths.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::case_file {
@@ -21,6 +22,7 @@ template <int axis>
 struct Axis {};
 using Direction = std::variant<Axis<0>, Axis<1>, Axis<2>, double, Vec3<double>>;  ///< angle in the plane, vector
 Vec3<double> vector_of(const Direction& direction);
+config::Schema<Direction> direction_schema();
 
 /// Values of the load in equal steps.
 struct LoadPath {
@@ -34,9 +36,13 @@ struct Uniaxial {
   Direction along;
   LoadPath stretch;
 };
-/// A sheet with edges along two axes.
-struct Sheet {
+/// Edges of a sheet.
+struct SheetAxes {
   Direction along, across = Axis<1>{};
+};
+void check_perpendicular(const SheetAxes& axes, config::Problems& problems);
+
+struct Sheet : SheetAxes {
   LoadPath load;
 };
 struct Equibiaxial : Sheet {};
@@ -57,12 +63,20 @@ struct Gradients {
 };
 using Loading = std::variant<Uniaxial, Equibiaxial, Biaxial, Planar, SimpleShear, Gradients>;
 
+/// The keys `along` and `across` of whatever has edges.
+template <class T>
+config::Schema<T> sheet_axes_schema(const char* name, const char* help, const char* along, const char* across) {
+  return config::Schema<T>(name, help)
+      .section("along", &SheetAxes::along, direction_schema(), along)
+      .by_default("e1")
+      .section("across", &SheetAxes::across, direction_schema(), across)
+      .by_default("e2")
+      .check(check_perpendicular);
+}
+
 // --- tests --------------------------------------------------------------------------------------------------------
 
-enum class StressMeasure {
-  cauchy,                ///< force per present area
-  first_piola_kirchhoff  ///< force per area at rest
-};
+using wall::StressMeasure;
 
 struct MeasuredData {
   std::filesystem::path file;

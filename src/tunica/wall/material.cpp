@@ -9,7 +9,7 @@ namespace tunica::wall {
 namespace {
 
 template <class... P>
-config::Schema<std::variant<P...>> schema_of(const std::variant<P...>*) {
+config::Schema<std::variant<P...>> laws_of(const std::variant<P...>*) {
   config::Schema<std::variant<P...>> s("material", "Wall law.");
   s.one_of();
   (s.alternative(P::schema()), ...);
@@ -18,6 +18,18 @@ config::Schema<std::variant<P...>> schema_of(const std::variant<P...>*) {
                    {"false_lumen_wall", aortic_tissue(AorticTissue::false_lumen_wall)},
                    {"flap", aortic_tissue(AorticTissue::flap)}},
                   "Dispersed fibres with parameters for a part of the dissected aorta, where none are measured");
+}
+
+struct FittedFile {
+  LawParameters material;
+};
+
+/// The section `material` of a file that `tunica fit` has written. It holds a law itself and names no other file.
+LawParameters read_fitted(const std::string& file) {
+  const auto schema = config::Schema<FittedFile>("fitted", "A law that was fitted to tests.")
+                          .section("material", &FittedFile::material,
+                                   laws_of(static_cast<const LawParameters*>(nullptr)), "Law and its parameters");
+  return config::parse_file(schema, file).value.material;
 }
 
 Vec3<double> in_plane(double angle) { return {{std::cos(angle), std::sin(angle), 0.0}}; }
@@ -74,6 +86,17 @@ std::vector<Vec3<double>> mean_fibre_directions(const LawParameters& parameters)
   return directions;
 }
 
-config::Schema<LawParameters> law_schema() { return schema_of(static_cast<const LawParameters*>(nullptr)); }
+config::Schema<LawParameters> law_schema() {
+  auto schema = laws_of(static_cast<const LawParameters*>(nullptr));
+  // The one key whose value stands in another file.
+  config::Field& fitted = schema.description()->fields.emplace_back();
+  fitted.key = "fitted";
+  fitted.kind = config::Kind::file;
+  fitted.help = "File that `tunica fit` has written: a law with its parameters";
+  fitted.store = [](void* object, const config::Value& value) {
+    *static_cast<LawParameters*>(object) = read_fitted(std::get<std::string>(value));
+  };
+  return schema;
+}
 
 }  // namespace tunica::wall

@@ -255,6 +255,55 @@ PathPoint deformed(const Law& law, const Volumetric& volumetric, const Mat3<doub
   return state_at(law, volumetric, F, pressure);
 }
 
+std::optional<Symmetric<double>> sheet_stress(const Law& law, const FibreFrame& axes, double C11, double C22,
+                                              double C12) {
+  const double area = C11 * C22 - C12 * C12;
+  if (!(area > 0.0)) return std::nullopt;
+  const Mat3<double> Q = columns(axes);
+  const Mat3<double> in_axes = full(Symmetric<double>{{C11, C22, 1.0 / area, C12, 0.0, 0.0}});
+  const Mat3<double> turned = Q * in_axes * transpose(Q);
+  Symmetric<double> C;
+  for (int n = 0; n < voigt_size; ++n) C[n] = turned(voigt_row[n], voigt_column[n]);
+  const Symmetric<double> elastic = std::visit(
+      [&](const auto& l) {
+        Symmetric<double> S = stress(l, C);
+        if constexpr (can_be_unsplit<std::decay_t<decltype(l)>>)
+          if (l.has_unsplit_part()) S = S + l.unsplit_stress(C);
+        return S;
+      },
+      law);
+  const Mat3<double> S_axes = transpose(Q) * full(elastic) * Q;
+  Symmetric<double> S;
+  for (int n = 0; n < voigt_size; ++n) S[n] = S_axes(voigt_row[n], voigt_column[n]);
+  if (std::max(std::abs(S[4]), std::abs(S[5])) > tolerance * std::max(shear_modulus_at_rest(law), size(S)))
+    return std::nullopt;
+  // S - (S33 / C33^-1) C^-1, C33^-1 = area
+  const double share = S[2] / area;
+  S[0] -= share * C22 / area;
+  S[1] -= share * C11 / area;
+  S[3] += share * C12 / area;
+  S[2] = S[4] = S[5] = 0.0;
+  return S;
+}
+
+const char* name_of(StressMeasure measure) {
+  constexpr const char* names[] = {"Cauchy stress", "first Piola-Kirchhoff stress", "second Piola-Kirchhoff stress"};
+  return names[static_cast<int>(measure)];
+}
+
+double stress_component(const PathPoint& point, StressMeasure measure, const Vec3<double>& direction,
+                        const Vec3<double>& normal) {
+  switch (measure) {
+    case StressMeasure::cauchy:
+      return dot(direction, point.state.cauchy * normal);
+    case StressMeasure::first_piola_kirchhoff:
+      return dot(direction, point.first_piola_kirchhoff * normal);
+    case StressMeasure::second_piola_kirchhoff:
+      break;
+  }
+  return dot(direction, point.state.stress * normal);
+}
+
 FibreFrame specimen_axes(const Vec3<double>& along) {
   const Vec3<double> e1{{1.0, 0.0, 0.0}}, e3{{0.0, 0.0, 1.0}}, in_plane = cross(e3, along);
   return orthonormal_frame(along, norm(in_plane) > 0.01 * norm(along) ? in_plane : e1, "specimen");

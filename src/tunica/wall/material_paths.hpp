@@ -30,6 +30,19 @@ struct PathPoint {
   std::vector<double> residuals{};       ///< of Newton's method, relative to the stress; empty for a given F
 };
 
+enum class StressMeasure {
+  cauchy,                 ///< force per present area
+  first_piola_kirchhoff,  ///< force per area at rest
+  second_piola_kirchhoff  ///< S
+};
+
+/// "Cauchy stress".
+const char* name_of(StressMeasure measure);
+
+/// The component of a stress [Pa] along `direction` on the face across `normal`, unit vectors in the fibre frame.
+double stress_component(const PathPoint& point, StressMeasure measure, const Vec3<double>& direction,
+                        const Vec3<double>& normal);
+
 /// Where the specimen is held.
 struct Stretches {
   double along = 1.0;            ///< stretch of the edge a1
@@ -40,6 +53,12 @@ struct Stretches {
 /// necessary in smaller steps. Throws SolverError when no equilibrium is found.
 PathPoint stretched(const Law& law, const Volumetric& volumetric, const FibreFrame& axes, const Stretches& stretches,
                     const PathPoint& start);
+
+/// Second Piola-Kirchhoff stress [Pa] of an incompressible sheet in the axes of the specimen, in closed form: C11, C22
+/// and C12 are held, C33 keeps the volume, and the pressure is that at which the face across a3 bears no normal
+/// traction. None where the law answers with shear across that face, which C13 and C23 would then have to undo.
+std::optional<Symmetric<double>> sheet_stress(const Law& law, const FibreFrame& axes, double C11, double C22,
+                                              double C12);
 
 /// Simple shear F = I + shear a1 (x) a2, wholly prescribed. An incompressible law takes the pressure at which the
 /// face across a3 bears no normal traction; otherwise the pressure is that of J = 1, zero.

@@ -133,13 +133,6 @@ TEST_F(Material, MeasuredPointsAreComparedWhereTheyAre) {
   EXPECT_NE(wrong_column.find("choose from: stretch, force per area"), std::string::npos) << wrong_column;
 }
 
-TEST_F(Material, DeviationOfCurves) {
-  const Deviation d = deviation({1.0, 2.0, 4.0}, {1.0, 2.0, 3.0});
-  EXPECT_NEAR(d.rms, std::sqrt(1.0 / 3.0), 1e-15);
-  EXPECT_NEAR(*d.r_squared, 0.5, 1e-15);
-  EXPECT_FALSE(deviation({1.0, 2.0}, {3.0, 3.0}).r_squared.has_value());
-}
-
 TEST_F(Material, GradientsFromAFileAndOnTheScreen) {
   folder.write("path.csv", "time,F11,F12,F13,F21,F22,F23,F31,F32,F33\n0,1,0,0,0,1,0,0,0,1\n1,1,0.2,0,0,1,0,0,0,1\n");
   const std::string screen = run(soft + "tests: {path: {gradients: {file: path.csv}}}\n");

@@ -12,6 +12,7 @@
 #include "tunica/files/csv_file.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
+#include "tunica/fitting/deviation.hpp"
 #include "tunica/stages/material/commands.hpp"
 
 namespace tunica::stages {
@@ -150,23 +151,8 @@ std::vector<double> stresses(const MaterialCurve& curve, const case_file::Loadin
   const Vec3<double>& direction = across ? curve.axes.e2 : curve.axes.e1;
   const Vec3<double>& normal = across || is_shear(loading) ? curve.axes.e2 : curve.axes.e1;
   std::vector<double> values;
-  for (const PathPoint& p : curve.points)
-    values.push_back(measure == case_file::StressMeasure::cauchy ? dot(direction, p.state.cauchy * normal)
-                                                                 : dot(direction, p.first_piola_kirchhoff * normal));
+  for (const PathPoint& p : curve.points) values.push_back(wall::stress_component(p, measure, direction, normal));
   return values;
-}
-
-Deviation deviation(const std::vector<double>& curve, const std::vector<double>& measured) {
-  const double n = static_cast<double>(measured.size());
-  double mean = 0.0, squares = 0.0, spread = 0.0;
-  for (const double m : measured) mean += m / n;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    squares += (curve[i] - measured[i]) * (curve[i] - measured[i]);
-    spread += (measured[i] - mean) * (measured[i] - mean);
-  }
-  Deviation d{std::sqrt(squares / n), {}};
-  if (spread > 0.0) d.r_squared = 1.0 - squares / spread;
-  return d;
 }
 
 namespace {
@@ -211,8 +197,7 @@ class TestReport {
     return scaled(stresses(curve_, test_.loading, test_.measure, across));
   }
   std::string stress_name(bool across) const {
-    const std::string measure =
-        test_.measure == case_file::StressMeasure::cauchy ? "Cauchy stress" : "first Piola-Kirchhoff stress";
+    const std::string measure = wall::name_of(test_.measure);
     return (is_shear(test_.loading) ? "shear " : "") + measure + (across ? " across" : "");
   }
 
@@ -290,7 +275,7 @@ class TestReport {
       if (across && !data.stress_across) continue;
       std::vector<double> measured = table.column(across ? *data.stress_across : data.stress);
       for (double& x : measured) x *= data.unit;
-      const auto d = deviation(stresses(at_data, test_.loading, test_.measure, across), measured);
+      const auto d = fitting::deviation(stresses(at_data, test_.loading, test_.measure, across), measured);
       std::fprintf(screen_, "  %s against %zu measured points: RMS deviation %.4g %s%s\n", stress_name(across).c_str(),
                    measured.size(), d.rms * per_pascal_, unit_.c_str(),
                    d.r_squared ? fmt::format(", R^2 {:.5f}", *d.r_squared).c_str() : "");

@@ -30,11 +30,4 @@ MaterialCurve run_test_at(const std::string& name, const case_file::Loading& loa
 std::vector<double> stresses(const MaterialCurve& curve, const case_file::Loading& loading,
                              case_file::StressMeasure measure, bool across);
 
-/// How far a curve is from measured points.
-struct Deviation {
-  double rms = 0.0;                 ///< root of the mean square difference
-  std::optional<double> r_squared;  ///< 1 - sum of squares / sum of squares about the mean; none for equal values
-};
-Deviation deviation(const std::vector<double>& curve, const std::vector<double>& measured);
-
 }  // namespace tunica::stages

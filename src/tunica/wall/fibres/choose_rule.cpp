@@ -8,6 +8,7 @@
 
 #include "tunica/wall/fibres/directions.hpp"
 #include "tunica/wall/fibres/gauss_rule.hpp"
+#include "tunica/wall/fibres/rule_size.hpp"
 #include "tunica/wall/symmetric.hpp"
 
 namespace tunica::wall {
@@ -148,25 +149,39 @@ RuleChoice measured_rule(DirectionSet set, std::string name, const Density& d, d
   return {std::move(set), std::move(name), error};
 }
 
-RuleChoice choose_rule(const Density& d, double k2, double tolerance, bool tension_only) {
-  struct Candidate {
-    int across, around;
-  };
+namespace {
+
+struct Candidate {
+  int across, around;
+};
+
+std::pair<RuleChoice, Candidate> cheapest(const Density& d, double k2, double tolerance, bool tension_only) {
   std::vector<Candidate> ladder;
   for (const int around : {6, 8, 10, 12, 14, 16, 20, 24, 32, 48, 64})
     for (const int across : {2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48}) ladder.push_back({across, around});
   std::stable_sort(ladder.begin(), ladder.end(),
                    [](const Candidate& a, const Candidate& b) { return a.across * a.around < b.across * b.around; });
   const Measure measure(d, k2, tension_only);
-  std::optional<RuleChoice> best;
+  std::optional<std::pair<RuleChoice, Candidate>> best;
   for (const Candidate& c : ladder) {
     DirectionSet set = product_rule(d, c.across, c.around);
     const double error = measure.error(set);
-    if (!best || error < best->error)
-      best = {std::move(set), fmt::format("product {} x {}", c.across, c.around), error};
-    if (best->error <= tolerance) break;
+    if (!best || error < best->first.error)
+      best = {{std::move(set), fmt::format("product {} x {}", c.across, c.around), error}, c};
+    if (best->first.error <= tolerance) break;
   }
   return *best;
+}
+
+}  // namespace
+
+RuleChoice choose_rule(const Density& d, double k2, double tolerance, bool tension_only) {
+  return cheapest(d, k2, tolerance, tension_only).first;
+}
+
+RuleSize choose_rule_size(const Density& d, double k2, double tolerance, bool tension_only) {
+  const Candidate c = cheapest(d, k2, tolerance, tension_only).second;
+  return {c.across, c.around};
 }
 
 }  // namespace tunica::wall

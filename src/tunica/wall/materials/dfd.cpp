@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tunica/base/error.hpp"
+#include "tunica/wall/materials/dfd_directions.hpp"
 
 namespace tunica::wall {
 
@@ -143,31 +144,62 @@ Density dfd::Family::density() const {
   return VonMises{s.concentration, (1.0 / norm(M)) * M};
 }
 
-DiscreteFibreLaw DfdParameters::law() const {
+namespace {
+
+/// `direction_set`: of a family, undegraded.
+template <class DirectionSetOf>
+DiscreteFibreLaw assembled(const DfdParameters& p, const DirectionSetOf& direction_set) {
   DiscreteFibreLaw result;
-  result.shear_modulus = elastic.shear();
-  result.unsplit = options.unsplit;
-  result.fibres.tension_only = options.tension_only;
+  result.shear_modulus = p.elastic.shear();
+  result.unsplit = p.options.unsplit;
+  result.fibres.tension_only = p.options.tension_only;
   // Families of equal energy share one bundle, and common directions are summed.
   std::vector<std::pair<FibreEnergy, std::vector<DirectionSet>>> bundles;
-  for (const dfd::Family& family : families) {
-    RuleChoice choice = choose(rule, family, options.tension_only);
-    result.notes.push_back(fmt::format("family {}: {}, {} directions, error of the fibre stress {:.2g} %",
-                                       result.notes.size() + 1, choice.name, choice.set.directions.size(),
-                                       100.0 * choice.error));
-    degrade(choice.set, family.degradation);
+  for (const dfd::Family& family : p.families) {
+    DirectionSet set = direction_set(family);
+    degrade(set, family.degradation);
     auto equal = std::find_if(bundles.begin(), bundles.end(), [&](const auto& b) {
       return b.first.k1 == family.energy.k1 && b.first.k2 == family.energy.k2;
     });
     if (equal == bundles.end()) equal = bundles.insert(bundles.end(), {family.energy, {}});
-    equal->second.push_back(std::move(choice.set));
+    equal->second.push_back(std::move(set));
   }
   for (const auto& [energy, sets] : bundles) {
     const DirectionSet merged = merge(sets);
     result.fibres.bundles.push_back(FibreBundle::make(energy, merged.directions, merged.weights));
   }
-  result.notes.push_back(fmt::format("{} directions in all", result.fibres.directions()));
   return result;
+}
+
+}  // namespace
+
+DiscreteFibreLaw DfdParameters::law() const {
+  std::vector<std::string> notes;
+  DiscreteFibreLaw result = assembled(*this, [&](const dfd::Family& family) {
+    RuleChoice choice = choose(rule, family, options.tension_only);
+    notes.push_back(fmt::format("family {}: {}, {} directions, error of the fibre stress {:.2g} %", notes.size() + 1,
+                                choice.name, choice.set.directions.size(), 100.0 * choice.error));
+    return std::move(choice.set);
+  });
+  notes.push_back(fmt::format("{} directions in all", result.fibres.directions()));
+  result.notes = std::move(notes);
+  return result;
+}
+
+DiscreteFibreLaw law_with(const DfdParameters& parameters, const RuleSize& directions) {
+  return assembled(parameters, [&](const dfd::Family& family) {
+    return product_rule(family.density(), directions.across, directions.around);
+  });
+}
+
+RuleSize rule_size_for(const DfdParameters& parameters, double tolerance) {
+  RuleSize largest;
+  for (const dfd::Family& family : parameters.families) {
+    const RuleSize size =
+        choose_rule_size(family.density(), family.energy.k2, tolerance, parameters.options.tension_only);
+    largest = {std::max(largest.across, size.across), std::max(largest.around, size.around)};
+  }
+  return largest;
 }
 
 }  // namespace tunica::wall
