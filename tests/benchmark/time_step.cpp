@@ -1,6 +1,6 @@
 // Whole time steps of fluid-structure interaction: seconds, iterations, memory, and where the time goes.
 //
-//   benchmark_time_step pipe_fsi|tube_50k|tube_300k [steps] [linear tolerance] [neo_hooke|dfd]
+//   benchmark_time_step pipe_fsi|tube_50k|tube_300k [steps] [linear tolerance] [neo_hooke|dfd] [ms]
 //   mpirun -n 2 benchmark_time_step pipe_fsi 3 1e-6
 //
 // dfd: a wall with two families of dispersed fibres by the default rule. Compare walls in processes of their own: of
@@ -148,10 +148,11 @@ struct Candidate {
   coupling::StepTimings sum;
 };
 
-void run(const std::string& name, int steps, double tolerance, const std::string& walls) {
+void run(const std::string& name, int steps, double tolerance, const std::string& walls, double milliseconds) {
   const MPI_Comm comm = MPI_COMM_WORLD;
   const bool root = parallel::rank(comm) == 0;
   Setting s = parallel::agree(comm, [&] { return make_setting(name, root); });
+  if (milliseconds > 0) s.dt = 1e-3 * milliseconds;
   s.input.linear.tolerance = s.input.linear.first_tolerance = tolerance;
   const auto mesh = distributed::distribute(s.data, comm);
   s.data = {};
@@ -180,7 +181,7 @@ int main(int argc, char** argv) {
     try {
       if (argc < 2) throw InputError("benchmark_time_step", "no name given", "pipe_fsi, tube_50k or tube_300k");
       run(argv[1], argc > 2 ? std::atoi(argv[2]) : 3, argc > 3 ? std::atof(argv[3]) : 1e-6,
-          argc > 4 ? argv[4] : "neo_hooke");
+          argc > 4 ? argv[4] : "neo_hooke", argc > 5 ? std::atof(argv[5]) : 0.0);
     } catch (const std::exception& e) {
       std::fprintf(stderr, "%s\n", e.what());
       status = 1;
