@@ -7,6 +7,9 @@
 #include <map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/imaging/chosen_ends.hpp"
+#include "tunica/imaging/lumen_topology.hpp"
+#include "tunica/imaging/resampling.hpp"
 #include "tunica/imaging/smooth_field.hpp"
 #include "tunica/imaging/surface_smoothing.hpp"
 #include "tunica/mesh/names.hpp"
@@ -18,66 +21,17 @@ namespace {
 using geometry::TriangleSurface;
 
 constexpr int sweeps = 80;
-constexpr double continued = 6;  // voxels beyond an end
+constexpr double continued = 6;        // voxels beyond an end
+constexpr double thinnest_flap = 1.3;  // voxels; thinner sheets fall between the samples of the field
 
-std::string in_mm(const Point& p) {
-  return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]);
+double smallest_spacing(const ImageFrame& frame) {
+  return std::min({norm(frame.steps[0]), norm(frame.steps[1]), norm(frame.steps[2])});
 }
 
+/// In voxels of the shortest side; longer ones will be divided.
 std::int64_t margin_for(const ImageFrame& frame) {
-  const double smallest = std::min({norm(frame.steps[0]), norm(frame.steps[1]), norm(frame.steps[2])});
-  return 4 + static_cast<std::int64_t>(std::ceil((continued + 2) * frame.largest_spacing() / smallest));
-}
-
-VesselEnd given_end(const std::string& name, const ImageOpening& opening, const SmoothField& field,
-                    const std::vector<VesselEnd>& found, std::vector<Problem>& problems) {
-  const std::string where = "opening " + name;
-  if (opening.normal) {
-    const auto normal = (1 / norm(*opening.normal)) * *opening.normal;
-    if (const auto end = end_at(field, opening.centre, normal)) return *end;
-    problems.push_back({where, "there is no cross-section of a vessel about " + in_mm(opening.centre),
-                        "give a centre inside the vessel and a normal along it"});
-    return {};
-  }
-  const VesselEnd* nearest = nullptr;
-  for (const auto& end : found)
-    if (norm(end.centre - opening.centre) < 2 * end.radius &&
-        (!nearest || norm(end.centre - opening.centre) < norm(nearest->centre - opening.centre)))
-      nearest = &end;
-  if (nearest) return *nearest;
-  std::string list;
-  for (const auto& end : found) list += (list.empty() ? "" : ", ") + in_mm(end.centre);
-  problems.push_back({where,
-                      fmt::format("no vessel ends in a flat face within two radii of {}; flat faces are at {}",
-                                  in_mm(opening.centre), list.empty() ? "no place" : list),
-                      "correct the centre, or give a normal: the vessel is then cut there"});
-  return {};
-}
-
-std::vector<VesselEnd> choose_ends(const LumenMask& mask, const SmoothField& field, const SurfaceSettings& settings,
-                                   const Log& log) {
-  const auto& openings = settings.openings;
-  std::vector<VesselEnd> found;
-  if (openings.empty() || std::any_of(openings.begin(), openings.end(), [](const auto& o) { return !o.second.normal; }))
-    found = find_ends(mask, field);
-  if (openings.empty()) {
-    if (found.empty())
-      throw InputError("image", "no vessel ends in a flat face", "give `openings` with centres and normals");
-    return found;
-  }
-  std::vector<Problem> problems;
-  std::vector<VesselEnd> ends;
-  for (const auto& [name, opening] : openings) ends.push_back(given_end(name, opening, field, found, problems));
-  for (std::size_t i = 0; problems.empty() && i < ends.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (norm(ends[i].centre - ends[j].centre) < 0.5 * std::max(ends[i].radius, ends[j].radius))
-        problems.push_back({"opening " + openings[i].first, "is at the same end as " + openings[j].first,
-                            "correct one of the centres"});
-  if (!problems.empty()) throw InputError(std::move(problems));
-  for (const auto& end : found)
-    if (std::none_of(ends.begin(), ends.end(), [&](const auto& e) { return norm(e.centre - end.centre) < e.radius; }))
-      log(fmt::format("the vessel end at {} stays closed: no opening names it", in_mm(end.centre)));
-  return ends;
+  const double smallest = smallest_spacing(frame), largest = std::min(frame.largest_spacing(), 4.0 / 3 * smallest);
+  return 4 + static_cast<std::int64_t>(std::ceil((continued + 2) * largest / smallest));
 }
 
 /// Where an image ends, vessels are to be cut.
@@ -116,34 +70,29 @@ void check_inlet(const LumenMask& mask, const VesselEnd& inlet) {
                      "exchange the labels of the lumens, or name another opening as `inlet`");
 }
 
-const VesselEnd& inlet_of(const std::vector<VesselEnd>& ends, const SurfaceSettings& settings) {
-  if (settings.openings.empty())
-    return *std::max_element(ends.begin(), ends.end(),
-                             [](const auto& a, const auto& b) { return a.radius < b.radius; });
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    if (settings.openings[i].first == settings.inlet) return ends[i];
-  return ends.front();
-}
-
-TriangleSurface largest_part(const TriangleSurface& surface) {
+/// The largest parts, as many as asked for.
+TriangleSurface largest_parts(const TriangleSurface& surface, int count) {
   const auto part = geometry::components(surface);
   std::map<std::int64_t, std::int64_t> counts;
   for (const auto p : part) ++counts[p];
-  const auto most =
-      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<std::pair<std::int64_t, std::int64_t>> order;
+  for (const auto& [p, triangles] : counts) order.emplace_back(triangles, p);
+  std::sort(order.rbegin(), order.rend());
+  if (std::ssize(order) > count) order.resize(static_cast<std::size_t>(count));
   TriangleSurface result{surface.points, {}};
   for (std::size_t t = 0; t < part.size(); ++t)
-    if (part[t] == most->first) result.triangles.push_back(surface.triangles[t]);
+    if (std::any_of(order.begin(), order.end(), [&](const auto& o) { return o.second == part[t]; }))
+      result.triangles.push_back(surface.triangles[t]);
   geometry::drop_unused_points(result);
   return result;
 }
 
-TriangleSurface cut_open(TriangleSurface surface, const std::vector<VesselEnd>& ends, double voxel) {
+TriangleSurface cut_open(TriangleSurface surface, const std::vector<VesselEnd>& ends, double voxel, int parts) {
   for (auto end : ends) {
     end.radius += 4 * voxel;
     surface = geometry::cut_end(surface, end);
   }
-  surface = largest_part(surface);
+  surface = largest_parts(surface, parts);
   const auto loops = geometry::boundary_loops(surface).size();
   if (loops != ends.size())
     throw SolverError(fmt::format(
@@ -153,22 +102,59 @@ TriangleSurface cut_open(TriangleSurface surface, const std::vector<VesselEnd>& 
   return surface;
 }
 
-void log_shape(const LabelSurface& result, bool dissected, const Log& log) {
+void log_shape(const LabelSurface& result, const Log& log) {
   for (const auto& end : result.ends)
     log(fmt::format("vessel end at {}, normal ({:.3f}, {:.3f}, {:.3f}), radius up to {:.1f} mm", in_mm(end.centre),
                     end.normal[0], end.normal[1], end.normal[2], 1e3 * end.radius));
-  for (const auto& tear : result.tears)
-    log(fmt::format("tear of {:.0f} mm^2 at {}: there true and false lumen touch", 1e6 * tear.area,
-                    in_mm(tear.centre)));
-  const auto genus = geometry::genus(result.lumen, std::ssize(result.ends));
+}
+
+/// Every tear beyond the first makes a handle, and nothing else does.
+void check_genus(const LabelSurface& result, std::int64_t expected, const Log& log) {
+  // The formula is that of one part; each further one adds 1.
+  const auto genus = geometry::genus(result.lumen, std::ssize(result.ends)) + result.parts - 1;
   log(fmt::format("lumen surface: {} triangles, {} openings, genus {}", result.lumen.triangles.size(),
                   result.ends.size(), genus));
-  if (const auto expected = std::max<std::int64_t>(0, std::ssize(result.tears) - 1); dissected && genus != expected)
-    log(fmt::format(
-        "warning: {} tears make a surface of genus {}, this one has {}. The flap has holes that the labels do "
-        "not have, a tear was closed, or vessels touch: look at the mesh, and correct the labels or give "
-        "another `smoothing`",
-        result.tears.size(), expected, genus));
+  if (genus == expected) return;
+  std::string places;
+  for (const auto& tear : result.tears) places += (places.empty() ? "" : ", ") + in_mm(tear.centre);
+  throw SolverError(
+      fmt::format("the lumen surface has genus {}, expected is {} ({} tears{}). The flap has holes that the labels do "
+                  "not have, or a "
+                  "tear was closed: correct the labels there, give another `smoothing` or `smallest_tear`, or say "
+                  "`genus: {}` if the "
+                  "surface is right",
+                  genus, expected, result.tears.size(), places.empty() ? "" : " at " + places, genus));
+}
+
+/// What is left of a vessel behind the tissue with which its continuation ends.
+void drop_beyond_ends(LumenMask& mask) {
+  for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
+    VoxelSet set(mask.kinds.size());
+    for (std::size_t i = 0; i < set.size(); ++i) set[i] = mask.kinds[i] == kind;
+    keep_largest_part(mask.frame, set);
+    for (std::size_t i = 0; i < set.size(); ++i)
+      if (mask.kinds[i] == kind && !set[i]) mask.kinds[i] = Kind::tissue;
+  }
+}
+
+/// The smooth field, with the topology of the labels.
+SmoothField lumen_field(const LumenMask& mask, const SurfaceSettings& settings, double sigma,
+                        const std::vector<Contact>& tears, const Log& log) {
+  const double voxel = mask.frame.largest_spacing();
+  auto field = smooth_field(mask, sigma);
+  if (!settings.labels.false_lumen) {
+    settle(nullptr, {}, settings.tears.at_least(), field, log);
+    return field;
+  }
+  std::vector<std::int64_t> open;
+  for (const auto& tear : tears) open.insert(open.end(), tear.voxels.begin(), tear.voxels.end());
+  const auto sides = flap_sides(mask, open);
+  const double gap = std::max(settings.flap.insert.value_or(0), thinnest_flap * voxel);
+  // Of 2 G - G * G across a plane.
+  const double slope = (2 - std::sqrt(0.5)) / std::sqrt(2 * M_PI) / (sigma * voxel);
+  hold_apart(sides, gap, slope, mask.frame, field);
+  settle(&sides, tears, settings.tears.at_least(), field, log);
+  return field;
 }
 
 }  // namespace
@@ -197,14 +183,37 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
       .integer(
           "false_lumen", [](S& s) -> std::optional<int>& { return s.labels.false_lumen; }, range(-32768, 32767),
           "Label of the false lumen; there is none when left out")
+      .quantities(
+          "tissue", [](S& s) -> std::vector<double>& { return s.labels.tissue; }, dimension::none, range(-32768, 32767),
+          "Labels of what is no flowing blood: thrombus, wall, other organs. It becomes wall where the wall grows "
+          "there, and lies outside the mesh elsewhere")
+      .by_default("[]")
       .number("smoothing", &S::smoothing, range(0.5, 2),
               "Standard deviation of the filter on the labels, in voxels: more closes gaps that are thinner")
       .by_default()
       .map("openings", &S::openings, ImageOpening::schema(),
-           "Vessel ends by name. When left out, all flat ends are opened and called inlet (the widest), outlet_1, ...")
+           "Vessel ends by name. When left out, all ends are opened and called inlet (the widest), outlet_1, ...")
       .by_default()
       .text("inlet", &S::inlet, "Name of the inlet; when left out, the first of the openings")
       .optional()
+      .section("flap", &S::flap, FlapSettings::schema(), "A flap for labels that have none")
+      .by_default()
+      .quantity(
+          "smallest_tear", [](S& s) -> std::optional<double>& { return s.tears.smallest; }, dimension::area,
+          range(0, 1e-3),
+          "Smaller contacts of true and false lumen are closed, and listed. When left out, 10 mm^2, or 30 mm^2 where "
+          "there are ten smaller ones: the labels are then rough")
+      .number(
+          "most_open", [](S& s) -> double& { return s.tears.most_open; }, range(0, 1),
+          "Share of the surface between the lumens that tears may take; with more, the labels have no flap")
+      .by_default()
+      .any_of(
+          "repair", [](S& s) -> std::array<bool, 3>& { return s.repairs.asked; }, {"slices", "pieces", "bridges"},
+          "Faults of the segmentation that are mended and not refused: missing slices are interpolated, separate "
+          "pieces above 1 ml dropped, bridges between vessels cut")
+      .by_default()
+      .integer("genus", &S::genus, range(0, 100),
+               "Handles of the lumen surface; when left out, one less than there are tears")
       .check([](const S& s, Problems& problems) {
         const auto named = [&](const auto& o) { return o.first == s.inlet; };
         if (!s.inlet.empty() && std::none_of(s.openings.begin(), s.openings.end(), named))
@@ -216,18 +225,29 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
 }
 
 LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings, const Log& log) {
-  auto mask = lumen_mask(image, settings.labels, margin_for(image.frame), log);
-  const double voxel = mask.frame.largest_spacing();
+  const bool dissected = settings.labels.false_lumen.has_value();
   LabelSurface result;
-  result.tears = find_contacts(mask, 4 * voxel * voxel);
-  result.ends = choose_ends(mask, smooth_field(mask, settings.smoothing), settings, log);
+  result.parts = settings.flap.insert && settings.flap.tears.empty() ? 2 : 1;
+  auto mask = lumen_mask(image, settings.labels, margin_for(image.frame), log, settings.repairs, result.parts == 2);
+  const double smallest = smallest_spacing(mask.frame);
+  mask = with_even_voxels(std::move(mask));
+  const double voxel = mask.frame.largest_spacing();
+  if (smallest_spacing(image.frame) < 0.99 * image.frame.largest_spacing() || voxel < 0.99 * smallest)
+    log(fmt::format("voxels of {:.2f} mm by shape-based interpolation", 1e3 * voxel));
+  const double sigma = settings.smoothing * smallest / smallest_spacing(mask.frame);
+  if (dissected) result.tears = find_tears(mask, settings.flap, settings.tears, log);
+  const auto rings = open_bridges(mask, dissected, settings.tears.at_least(), settings.repairs[Repair::bridges], log);
+  result.ends = choose_ends(mask, smooth_field(mask, sigma), settings, log);
   check_border(mask, result.ends);
   check_inlet(mask, inlet_of(result.ends, settings));
   for (const auto& end : result.ends) continue_beyond(end, continued * voxel, mask);
-  auto surface = largest_part(boundary(smooth_field(mask, settings.smoothing)));
+  drop_beyond_ends(mask);
+  auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, log)), result.parts);
   smooth_surface(surface, sweeps);
-  result.lumen = cut_open(std::move(surface), result.ends, voxel);
-  log_shape(result, settings.labels.false_lumen.has_value(), log);
+  result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
+  log_shape(result, log);
+  const auto tears = std::ssize(result.tears);
+  check_genus(result, settings.genus ? *settings.genus : dissected ? std::max<std::int64_t>(0, tears - 1) : rings, log);
   return result;
 }
 

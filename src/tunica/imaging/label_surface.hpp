@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tunica/config/schema.hpp"
+#include "tunica/imaging/flap.hpp"
 #include "tunica/imaging/lumen_mask.hpp"
 #include "tunica/imaging/vessel_ends.hpp"
 
@@ -23,8 +24,12 @@ struct ImageOpening {
 struct SurfaceSettings {
   LumenLabels labels;
   double smoothing = 0.85;                                       ///< standard deviation of the filter [voxels]
-  std::vector<std::pair<std::string, ImageOpening>> openings{};  ///< none: all flat ends that are found
+  std::vector<std::pair<std::string, ImageOpening>> openings{};  ///< none: all ends that are found
   std::string inlet{};  ///< name of an opening; empty: the first one, or the widest end
+  FlapSettings flap{};
+  TearBounds tears{};
+  Repairs repairs{};
+  std::optional<int> genus{};  ///< of the lumen; none: one less than there are tears
 
   static void add_to(config::Schema<SurfaceSettings>& schema);
 };
@@ -33,12 +38,14 @@ struct LabelSurface {
   geometry::TriangleSurface lumen;  ///< open at the vessel ends, with plane rims and outward normals
   std::vector<VesselEnd> ends;      ///< in the order of the openings that were given
   std::vector<Contact> tears;
+  int parts = 1;  ///< 2: true and false lumen are apart
 };
 
 /// The lumen's surface between the voxels, smooth, cut open at the vessel ends. The log gets what was cleaned, where
-/// ends and tears are, and a warning where the flap is not as the labels have it. InputError for labels that are
-/// missing or not connected, for ends that cannot be found, vessels that run out of the image elsewhere, and an inlet
-/// without true lumen; SolverError for vessels that cannot be cut apart.
+/// ends and tears are. InputError for labels that are missing, unknown or not connected, that touch all along or make
+/// rings, for ends that cannot be found, vessels that run out of the image elsewhere, an end wider than the inlet that
+/// is not opened, and an inlet without true lumen; SolverError for vessels that cannot be cut apart and a surface whose
+/// genus is not that of the tears.
 LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings, const Log& log);
 
 }  // namespace tunica::imaging

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/imaging/missing_slices.hpp"
+#include "tunica/imaging/voxel_topology.hpp"
 
 namespace tunica::imaging {
 
@@ -13,12 +16,30 @@ namespace {
 
 double ml(double cubic_metres) { return 1e6 * cubic_metres; }
 
-void check_labels(const LabelImage& image, const LumenLabels& labels) {
+/// How much of each label there is, and what it becomes.
+void check_labels(const LabelImage& image, const LumenLabels& labels, const Log& log) {
   std::map<int, std::int64_t> counts;
   for (const auto label : image.labels) ++counts[label];
   std::string there;
-  for (const auto& [label, count] : counts) there += fmt::format("{}{}", there.empty() ? "" : ", ", label);
   std::vector<Problem> problems;
+  for (const auto& [label, count] : counts) {
+    there += fmt::format("{}{}", there.empty() ? "" : ", ", label);
+    const bool is_tissue = std::find(labels.tissue.begin(), labels.tissue.end(), label) != labels.tissue.end();
+    const char* role = label == labels.true_lumen    ? "true lumen"
+                       : label == labels.false_lumen ? "false lumen"
+                       : is_tissue                   ? "tissue: wall where the wall grows there, else outside"
+                       : label == 0                  ? "outside"
+                                                     : nullptr;
+    const double volume = ml(image.frame.voxel_volume() * static_cast<double>(count));
+    log(fmt::format("label {}: {:.2f} ml, {}", label, volume, role ? role : "not named"));
+    if (!role)
+      problems.push_back(
+          {fmt::format("label {}", label),
+           fmt::format("{:.2f} ml of the image have it, and nothing says what they are", volume),
+           fmt::format("give `tissue: [{}]` for what is no flowing blood (thrombus, wall, other organs), "
+                       "or join it with a lumen",
+                       label)});
+  }
   const auto check = [&](const char* key, int label) {
     if (!counts.contains(label))
       problems.push_back({key, fmt::format("no voxel has the label {}; the image has {}", label, there),
@@ -28,6 +49,9 @@ void check_labels(const LabelImage& image, const LumenLabels& labels) {
   if (labels.false_lumen) check("false_lumen", *labels.false_lumen);
   if (labels.false_lumen == labels.true_lumen)
     problems.push_back({"false_lumen", "has the label of the true lumen", "give each lumen a label of its own"});
+  for (const double label : labels.tissue)
+    if (label == labels.true_lumen || label == labels.false_lumen)
+      problems.push_back({"tissue", fmt::format("label {} is a lumen", label), "take it out of the list"});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
@@ -49,9 +73,13 @@ LumenMask cropped(const LabelImage& image, const LumenLabels& labels, std::int64
     }
   }
   LumenMask mask{from, {}, {}, {}};
+  const double smallest = std::min({norm(from.steps[0]), norm(from.steps[1]), norm(from.steps[2])});
   for (int d = 0; d < 3; ++d) {
-    low[d] -= margin;
-    mask.frame.size[d] = high[d] + margin + 1 - low[d];
+    // Long voxels take fewer.
+    const double share = smallest / norm(from.steps[d]);
+    const auto around = std::min(margin, 3 + static_cast<std::int64_t>(std::ceil(share * static_cast<double>(margin))));
+    low[d] -= around;
+    mask.frame.size[d] = high[d] + around + 1 - low[d];
     mask.image_low[d] = -low[d];
     mask.image_high[d] = from.size[d] - 1 - low[d];
   }
@@ -105,17 +133,40 @@ std::int64_t count_of(const LumenMask& mask, Kind kind) {
   return std::count(mask.kinds.begin(), mask.kinds.end(), kind);
 }
 
-void clean(LumenMask& mask, const Log& log) {
+/// Separate pieces that are too large to be noise of the segmentation.
+constexpr double largest_speck = 1e-6;  // m^3
+
+void check_pieces(const LumenMask& mask, const Pieces& pieces, std::size_t largest) {
+  std::vector<Problem> problems;
+  for (std::size_t p = 1; p < pieces.first.size(); ++p) {
+    const double volume = mask.frame.voxel_volume() * static_cast<double>(pieces.voxels[p]);
+    if (p == largest || !mask.is_lumen(pieces.first[p]) || volume < largest_speck) continue;
+    problems.push_back({"image",
+                        fmt::format("a piece of lumen of {:.1f} ml at {} is separate from the rest", ml(volume),
+                                    in_mm(mask.frame.place(mask.frame.voxel(pieces.first[p])))),
+                        "join it in the segmentation, or drop such pieces by `repair: [pieces]`"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+/// Leaves the largest piece, and another one of the other lumen where the lumens are `apart`.
+void clean(LumenMask& mask, const Repairs& repairs, bool apart, const Log& log) {
   const auto pieces = pieces_of(mask);
   std::size_t largest = 0;  // the tissue around all, so never the answer
   for (std::size_t p = 1; p < pieces.first.size(); ++p)
     if (mask.is_lumen(pieces.first[p]) && (largest == 0 || pieces.voxels[p] > pieces.voxels[largest])) largest = p;
+  if (!apart && !repairs[Repair::pieces]) check_pieces(mask, pieces, largest);
+  std::size_t second = 0;
+  for (std::size_t p = 1; apart && p < pieces.first.size(); ++p)
+    if (mask.is_lumen(pieces.first[p]) && mask.kinds[pieces.first[p]] != mask.kinds[pieces.first[largest]] &&
+        (second == 0 || pieces.voxels[p] > pieces.voxels[second]))
+      second = p;
   // What each piece becomes.
   std::vector<std::optional<Kind>> change(pieces.first.size());
   std::int64_t dropped = 0, filled = 0;
   double dropped_volume = 0, filled_volume = 0;
   for (std::size_t p = 1; p < change.size(); ++p) {
-    if (p == largest) continue;
+    if (p == largest || p == second) continue;
     const bool lumen = mask.is_lumen(pieces.first[p]);
     change[p] = lumen                                                     ? Kind::tissue
                 : pieces.true_neighbours[p] >= pieces.false_neighbours[p] ? Kind::true_lumen
@@ -128,6 +179,24 @@ void clean(LumenMask& mask, const Log& log) {
   if (dropped > 0)
     log(fmt::format("{} separate pieces of lumen dropped, {:.3f} ml together", dropped, ml(dropped_volume)));
   if (filled > 0) log(fmt::format("{} holes in the lumen filled, {:.3f} ml together", filled, ml(filled_volume)));
+}
+
+/// Parts of a lumen that hang on the rest only through the other lumen belong to that: specks of the wrong label, and
+/// branches of the false lumen that bear the label of all branches.
+void rename_parts(LumenMask& mask, const Log& log) {
+  for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
+    VoxelSet set(mask.kinds.size());
+    for (std::size_t i = 0; i < set.size(); ++i) set[i] = mask.kinds[i] == kind;
+    const auto all = set;
+    const auto changed = keep_largest_part(mask.frame, set);
+    if (changed == 0) continue;
+    const bool to_false = kind == Kind::true_lumen;
+    for (std::size_t i = 0; i < set.size(); ++i)
+      if (all[i] && !set[i]) mask.kinds[i] = to_false ? Kind::false_lumen : Kind::true_lumen;
+    log(fmt::format("{:.3f} ml of the {} lumen hang on the other lumen only, and count as {} lumen",
+                    ml(mask.frame.voxel_volume() * static_cast<double>(changed)), to_false ? "true" : "false",
+                    to_false ? "false" : "true"));
+  }
 }
 
 /// Dropping pieces must not take away a lumen.
@@ -143,13 +212,22 @@ void check_connected(const LumenMask& mask, Kind kind, const char* name, std::in
 
 }  // namespace
 
-LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::int64_t margin, const Log& log) {
-  check_labels(image, labels);
+std::string in_mm(const Point& p) {
+  return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]);
+}
+
+LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::int64_t margin, const Log& log,
+                     const Repairs& repairs, bool apart) {
+  check_labels(image, labels, log);
   auto mask = cropped(image, labels, margin);
+  mend_slices(mask, repairs[Repair::slices], log);
   const auto true_before = count_of(mask, Kind::true_lumen), false_before = count_of(mask, Kind::false_lumen);
-  clean(mask, log);
+  clean(mask, repairs, apart, log);
   check_connected(mask, Kind::true_lumen, "true", true_before);
-  if (labels.false_lumen) check_connected(mask, Kind::false_lumen, "false", false_before);
+  if (labels.false_lumen) {
+    check_connected(mask, Kind::false_lumen, "false", false_before);
+    rename_parts(mask, log);
+  }
   return mask;
 }
 
@@ -172,23 +250,27 @@ std::vector<Contact> find_contacts(const LumenMask& mask, double smallest) {
   while (!touching.empty()) {
     std::vector<std::int64_t> stack{touching.begin()->first};
     Vec3<double> area = touching.begin()->second;
+    double faces_area = norm(area);
     Point sum{{0, 0, 0}};
     touching.erase(touching.begin());
     double count = 0;
+    std::vector<std::int64_t> voxels;
     while (!stack.empty()) {
       const auto i = stack.back();
       stack.pop_back();
+      voxels.push_back(i);
       sum = sum + frame.place(frame.voxel(i));
       ++count;
       for_each_neighbour(frame, i, [&](std::int64_t other, const Size3&) {
         const auto found = touching.find(other);
         if (found == touching.end()) return;
         area = area + found->second;
+        faces_area += norm(found->second);
         touching.erase(found);
         stack.push_back(other);
       });
     }
-    if (norm(area) >= smallest) contacts.push_back({(1 / count) * sum, norm(area)});
+    if (norm(area) >= smallest) contacts.push_back({(1 / count) * sum, norm(area), std::move(voxels), faces_area});
   }
   std::sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
   return contacts;

@@ -1,6 +1,7 @@
 // The voxels of a labelled image that hold blood, cleaned.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -27,23 +28,39 @@ struct LumenMask {
   }
 };
 
-/// The numbers of the lumens in the image.
+/// What the labels of the image mean; 0 is no part of the vessel.
 struct LumenLabels {
   int true_lumen = 1;
   std::optional<int> false_lumen;  ///< none: there is no dissection
+  std::vector<double> tissue{};    ///< further labels that are no blood
+};
+
+/// Which faults of a segmentation are mended; the others are errors.
+enum class Repair : std::uint8_t { slices, pieces, bridges };
+struct Repairs {
+  std::array<bool, 3> asked{};
+  bool operator[](Repair repair) const { return asked[static_cast<std::size_t>(repair)]; }
 };
 
 using Log = std::function<void(const std::string&)>;
 
-/// The lumen of an image: its largest connected piece, holes filled, with `margin` voxels of tissue around it. The log
-/// gets what was dropped and filled. InputError for labels that are not in the image, and for lumens that touch
+/// "(x, y, z) mm" of one place.
+std::string in_mm(const Point& place);
+
+/// The lumen of an image: its largest connected piece, holes filled, with tissue around it for `margin` voxels of their
+/// shortest side. The log gets what each label becomes, and what was dropped and filled. `apart`: whether the lumens
+/// may be two pieces, with no tear between them. InputError for labels that are not in the image or not known, for
+/// slices that are missing and separate pieces above 1 ml where these are not repaired, and for lumens that touch
 /// nowhere.
-LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::int64_t margin, const Log& log);
+LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::int64_t margin, const Log& log,
+                     const Repairs& repairs = {}, bool apart = false);
 
 /// A place where true and false lumen touch.
 struct Contact {
-  Point centre;  ///< m
-  double area;   ///< seen from straight ahead [m^2]
+  Point centre;                        ///< m
+  double area;                         ///< seen from straight ahead [m^2]
+  std::vector<std::int64_t> voxels{};  ///< of the false lumen
+  double touching = 0;                 ///< of all faces that touch, whichever way they look [m^2]
 };
 /// Places where true and false lumen touch, largest first; specks of less than `smallest` [m^2] are left out.
 std::vector<Contact> find_contacts(const LumenMask& mask, double smallest);

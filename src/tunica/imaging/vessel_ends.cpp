@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <set>
 
 namespace tunica::imaging {
 
@@ -14,6 +15,8 @@ constexpr double shortest_branch = 5e-3;  // m; what reaches less far out of its
 constexpr double widest = 80e-3;          // m; no cross-section of a vessel is wider
 constexpr double steepest = 0.85;         // tan of the angle between an end's normal and the axis of the vessel
 constexpr double flat_share = 0.5;        // of a flat end, this much lies in a plane
+constexpr double whole_share = 0.88;      // of the area farther back that a section before an uneven end has
+constexpr double roundest = 0.45;         // share of the circle about it that the section of a vessel fills
 
 /// Ways through the lumen [m] from one voxel to all others.
 std::vector<float> ways_from(std::int64_t start, const LumenMask& mask) {
@@ -125,6 +128,7 @@ Point centroid(const Stub& stub, double from, double to, const ImageFrame& frame
 
 /// Cross-section of the lumen in a plane.
 struct Section {
+  Point asked;                                ///< where it was asked for
   Vec3<double> u, v;                          ///< axes in the plane
   std::vector<std::array<double, 2>> places;  ///< along u and v, from the point it was asked for [m]
   double step;                                ///< between them [m]
@@ -136,6 +140,7 @@ struct Section {
 Section section(const SmoothField& field, const Point& at, const Vec3<double>& normal) {
   const Vec3<double> other = std::abs(normal[0]) < 0.7 ? Vec3<double>{{1, 0, 0}} : Vec3<double>{{0, 1, 0}};
   Section result;
+  result.asked = at;
   result.u = cross(normal, other);
   result.u = (1 / norm(result.u)) * result.u;
   result.v = cross(normal, result.u);
@@ -273,6 +278,41 @@ std::optional<VesselEnd> end_of_stub(std::int64_t tip, double length, const Lume
   return face;
 }
 
+/// A vessel that is shorter than wide shows no direction, but most segmentations end with a slice: the flat face in the
+/// slice of the tip.
+std::optional<VesselEnd> end_in_slice(std::int64_t tip, const LumenMask& mask, const SmoothField& field) {
+  const auto& frame = mask.frame;
+  const std::int64_t strides[3] = {1, frame.size[0], frame.size[0] * frame.size[1]};
+  for (int d = 0; d < 3; ++d)
+    for (const int sign : {-1, 1}) {
+      const auto outward = sign * strides[d];
+      if (mask.is_lumen(tip + outward)) continue;
+      // Voxels of the slice about the tip that end there too.
+      std::vector<std::int64_t> face{tip};
+      std::set<std::int64_t> seen{tip};
+      Point sum{{0, 0, 0}};
+      for (std::size_t next = 0; next < face.size(); ++next) {
+        sum = sum + frame.place(frame.voxel(face[next]));
+        for (int e = 0; e < 3; ++e)
+          for (const auto step : {-strides[e], strides[e]}) {
+            const auto other = face[next] + step;
+            if (e == d || !mask.is_lumen(other) || mask.is_lumen(other + outward) || !seen.insert(other).second)
+              continue;
+            face.push_back(other);
+          }
+      }
+      const auto of_true =
+          std::count_if(face.begin(), face.end(), [&](std::int64_t i) { return mask.kinds[i] == Kind::true_lumen; });
+      if (face.size() < 12 || 2 * of_true < std::ssize(face)) continue;
+      const auto axis = (sign / norm(frame.steps[d])) * frame.steps[d];
+      const Point centre = (1 / static_cast<double>(face.size())) * sum;
+      if (const auto end = flat_face(field, centre - 3 * frame.largest_spacing() * axis, axis);
+          end && dot(end->normal, axis) > 0.95)
+        return end;
+    }
+  return {};
+}
+
 template <class Depth>
 std::optional<VesselEnd> end_of_tip(std::int64_t tip, const LumenMask& mask, const SmoothField& field,
                                     const Depth& depth) {
@@ -280,26 +320,152 @@ std::optional<VesselEnd> end_of_tip(std::int64_t tip, const LumenMask& mask, con
   // Vessels that are short or bent show their direction on a shorter stub.
   for (const double share : {1.0, 0.7, 0.5, 0.35})
     if (const auto end = end_of_stub(tip, share * longest, mask, field, depth)) return end;
+  return end_in_slice(tip, mask, field);
+}
+
+double share_of_true(const Stub& stub, const LumenMask& mask) {
+  double count = 0;
+  for (const auto i : stub.voxels) count += mask.kinds[i] == Kind::true_lumen;
+  return count / static_cast<double>(stub.voxels.size());
+}
+
+bool lies_in_true_lumen(const Section& cut, const LumenMask& mask) {
+  const auto to_voxels = inverse(mask.frame.matrix());
+  std::size_t count = 0;
+  for (const auto& [x, y] : cut.places) {
+    const auto v = to_voxels * (cut.asked + x * cut.u + y * cut.v - mask.frame.origin);
+    const Size3 w{std::lround(v[0]), std::lround(v[1]), std::lround(v[2])};
+    count += mask.frame.holds(w[0], w[1], w[2]) && mask.kinds[mask.frame.index(w[0], w[1], w[2])] == Kind::true_lumen;
+  }
+  return 2 * count > cut.places.size();
+}
+
+double area_of(const Section& cut) { return cut.step * cut.step * static_cast<double>(cut.places.size()); }
+
+/// The direction along a vessel: across it the cross-section is smallest.
+Vec3<double> direction_along(const SmoothField& field, const Point& at, Vec3<double> axis) {
+  double least = area_of(section(field, at, axis));
+  for (double tilt = 0.35; tilt > 0.06; tilt *= 0.5)
+    for (int tries = 0, found = 1; found && tries < 5; ++tries) {
+      found = 0;
+      const auto cut = section(field, at, axis);
+      for (int k = 0; k < 6; ++k) {
+        auto tilted = axis + tilt * (std::cos(k * M_PI / 3) * cut.u + std::sin(k * M_PI / 3) * cut.v);
+        tilted = (1 / norm(tilted)) * tilted;
+        const double area = area_of(section(field, at, tilted));
+        if (area >= least || area == 0) continue;
+        least = area;
+        axis = tilted;
+        found = 1;
+      }
+    }
+  return axis;
+}
+
+/// Sections across a vessel from a place to its end; none where it goes on for more than `longest` [m].
+std::vector<Section> sections_to_end(const SmoothField& field, Point at, const Vec3<double>& axis, double longest) {
+  const double step = 0.5 * field.frame.largest_spacing();
+  std::vector<Section> sections;
+  for (;;) {
+    auto cut = section(field, at, axis);
+    if (cut.places.size() < 12 || cut.radius >= 0.9 * widest) return sections;
+    at = cut.centre + step * axis;
+    sections.push_back(std::move(cut));
+    if (step * static_cast<double>(sections.size()) > longest) return {};
+  }
+}
+
+/// The last of the sections that is still whole: as large as those in the first half; 0: none, or they differ by more
+/// than the factor `spread`.
+std::size_t last_whole(const std::vector<Section>& sections, double spread) {
+  if (sections.size() < 5) return 0;
+  std::vector<double> areas;
+  for (std::size_t k = 0; k < (sections.size() + 1) / 2; ++k) areas.push_back(area_of(sections[k]));
+  std::nth_element(areas.begin(), areas.begin() + std::ssize(areas) / 2, areas.end());
+  const double whole = areas[areas.size() / 2];
+  std::size_t last = sections.size() - 1;
+  while (last > 0 && area_of(sections[last]) < whole_share * whole) --last;
+  // Along a vessel they are alike; across a corner of something wide, or a ball, they are not.
+  double least = whole, most = whole;
+  for (std::size_t k = 0; k <= last; ++k) {
+    least = std::min(least, area_of(sections[k]));
+    most = std::max(most, area_of(sections[k]));
+  }
+  if (most > spread * least) return 0;
+  return last;
+}
+
+/// The last section before a tip that is still as wide as those farther back, for vessels that do not end in a face.
+/// None for the wedge in which a lumen ends beside the other one.
+template <class Depth>
+std::optional<VesselEnd> whole_before_tip(std::int64_t tip, const LumenMask& mask, const SmoothField& field,
+                                          const Depth& depth) {
+  const auto& frame = mask.frame;
+  const double longest = length_of_stub(tip, mask, depth);
+  // A short vessel leaves a wide one soon, and a steep end is long.
+  for (const double share : {0.8, 0.55, 1.2}) {
+    const double length = share * longest;
+    const auto stub = stub_behind(tip, length, mask, depth);
+    if (share_of_true(stub, mask) < 0.5) return {};
+    auto axis = centroid(stub, 0, 0.4 * length, frame) - centroid(stub, 0.6 * length, length, frame);
+    if (!(norm(axis) > 0)) continue;
+    axis = (1 / norm(axis)) * axis;
+    const Point start = section(field, centroid(stub, 0.6 * length, length, frame), axis).centre;
+    axis = direction_along(field, start, axis);
+    auto sections = sections_to_end(field, start, axis, 1.5 * length);
+    std::size_t last = last_whole(sections, 1.8);
+    if (last == 0) continue;
+    // Again from nearer to the end: the vessel may be bent.
+    const auto back = static_cast<std::size_t>(2.4 * sections[last].radius / frame.largest_spacing());
+    const Point nearer = sections[last > back ? last - back : 0].centre;
+    axis = direction_along(field, nearer, axis);
+    sections = sections_to_end(field, nearer, axis, 1.5 * length);
+    last = last_whole(sections, 1.25);
+    if (last == 0) continue;
+    const auto& cut = sections[last];
+    if (norm(cut.centre - sections.front().centre) < 1.05 * cut.radius) continue;
+    if (area_of(cut) < roundest * M_PI * cut.radius * cut.radius) continue;
+    if (!lies_in_true_lumen(cut, mask)) continue;
+    return VesselEnd{cut.centre, axis, cut.radius};
+  }
   return {};
 }
 
 }  // namespace
 
-std::vector<VesselEnd> find_ends(const LumenMask& mask, const SmoothField& field) {
+VesselEnds find_ends(const LumenMask& mask, const SmoothField& field) {
   std::int64_t any = 0;
   while (!mask.is_lumen(any)) ++any;
   const auto first = farthest(ways_from(any, mask));
   const auto way = ways_from(first, mask);
-  std::vector<VesselEnd> ends;
-  const auto add = [&](const std::optional<VesselEnd>& end) {
-    if (!end) return;
-    for (const auto& other : ends)
-      if (norm(other.centre - end->centre) < std::max(other.radius, end->radius)) return;
-    ends.push_back(*end);
+  VesselEnds ends;
+  std::vector<std::int64_t> others;
+  const auto add = [](const VesselEnd& end, std::vector<VesselEnd>& list) {
+    for (const auto& other : list)
+      if (norm(other.centre - end.centre) < std::max(other.radius, end.radius)) return;
+    list.push_back(end);
   };
-  add(end_of_tip(first, mask, field, [&](std::int64_t i) { return double{way[i]}; }));
-  for (const auto tip : tips(way, mask))
-    add(end_of_tip(tip, mask, field, [&](std::int64_t i) { return double{way[tip]} - double{way[i]}; }));
+  const auto depth_from = [&](std::int64_t tip) {
+    return [&way, tip, first](std::int64_t i) {
+      return tip == first ? double{way[i]} : double{way[tip]} - double{way[i]};
+    };
+  };
+  auto all = tips(way, mask);
+  all.insert(all.begin(), first);
+  for (const auto tip : all) {
+    if (const auto end = end_of_tip(tip, mask, field, depth_from(tip)))
+      add(*end, ends.flat);
+    else
+      others.push_back(tip);
+  }
+  for (const auto tip : others) {
+    const auto end = whole_before_tip(tip, mask, field, depth_from(tip));
+    if (!end) continue;
+    const auto near = [&](const VesselEnd& other) {
+      return norm(other.centre - end->centre) < 1.5 * std::max(other.radius, end->radius);
+    };
+    if (std::none_of(ends.flat.begin(), ends.flat.end(), near)) add(*end, ends.uneven);
+  }
   return ends;
 }
 

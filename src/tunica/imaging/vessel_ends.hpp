@@ -1,8 +1,8 @@
 // Where the vessels of a segmentation end.
 //
-// A segmented vessel ends in a flat face: where the image ends, or where someone cut it. The ends of a false lumen
-// between flap and wall are wedges and no openings. Ends are found from the way through the lumen: they are where it
-// gets no farther.
+// A segmented vessel ends in a flat face where the image ends or someone cut it, and in any other way where a level set
+// or a network ended it. The ends of a false lumen between flap and wall are wedges and no openings. Ends are found
+// from the way through the lumen: they are where it gets no farther.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,14 @@ namespace tunica::imaging {
 
 using geometry::VesselEnd;
 
-/// Flat ends of the lumen. `field` is that of `mask`.
-std::vector<VesselEnd> find_ends(const LumenMask& mask, const SmoothField& field);
+struct VesselEnds {
+  std::vector<VesselEnd> flat;    ///< where they end
+  std::vector<VesselEnd> uneven;  ///< of true lumen that ends rounded, ragged or steeply: where it is still whole
+};
+
+/// Ends of the lumen. `field` is that of `mask`. An uneven one is found by going along the vessel to its end until the
+/// cross-section becomes smaller.
+VesselEnds find_ends(const LumenMask& mask, const SmoothField& field);
 
 /// The end of a vessel that is cut by a plane: `radius` is found from the cross-section about `centre`. None where
 /// there is no lumen within two voxels of the centre in the plane, or it is wider than 8 cm.

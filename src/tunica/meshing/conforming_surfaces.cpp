@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/geometry/self_intersections.hpp"
@@ -79,6 +80,26 @@ void refine(Sheet& sheet, Spots spots, double gradation) {
   geometry::limit_gradation(surface, gradation, sheet.original.sizes);
 }
 
+double largest_distance(const std::vector<Sheet>& sheets) {
+  double result = 0;
+  for (const auto& sheet : sheets) result = std::max(result, sheet.distance);
+  return result;
+}
+
+/// A few places beyond the bounds are no reason to have no mesh.
+bool may_stay(const std::vector<Sheet>& sheets, std::int64_t far, std::int64_t crossings, const Accuracy& accuracy) {
+  return crossings == 0 && far <= accuracy.few && largest_distance(sheets) <= accuracy.farthest;
+}
+
+[[noreturn]] void give_up(int round, std::int64_t far, std::int64_t crossings,
+                          const std::vector<geometry::Point>& places) {
+  throw SolverError(fmt::format(
+      "after {} rounds of remeshing {} places are too far from the original surface and {} pairs of triangles "
+      "cross, near {}: look there for walls or vessels that nearly touch, and part them or give a finer "
+      "`size`",
+      round, far, crossings, geometry::list_places_mm(places)));
+}
+
 }  // namespace
 
 void remesh_together(std::vector<Sheet>& sheets, const Accuracy& accuracy, double gradation, const Log& log) {
@@ -87,6 +108,8 @@ void remesh_together(std::vector<Sheet>& sheets, const Accuracy& accuracy, doubl
     sheet.asked = sheet.original.sizes;
   }
   std::vector<bool> due(sheets.size(), true);
+  std::int64_t before = std::numeric_limits<std::int64_t>::max();
+  int worse = 0;  // rounds in a row that left more places than the one before
   for (int round = 1;; ++round) {
     std::vector<Spots> spots(sheets.size());
     std::int64_t triangles = 0;
@@ -106,11 +129,14 @@ void remesh_together(std::vector<Sheet>& sheets, const Accuracy& accuracy, doubl
     std::vector<geometry::Point> places;
     for (std::size_t s = 0; s < sheets.size(); ++s)
       for (const auto p : spots[s]) places.push_back(sheets[s].original.tree.surface().points[p]);
-    if (round == accuracy.rounds)
-      throw SolverError(
-          fmt::format("after {} rounds of remeshing {} places are too far from the original surface and {} pairs of "
-                      "triangles cross, near {}",
-                      round, far, crossings, geometry::list_places_mm(places)));
+    worse = far + crossings > before ? worse + 1 : 0;
+    before = far + crossings;
+    if (round == accuracy.rounds || worse == 2) {
+      if (!may_stay(sheets, far, crossings, accuracy)) give_up(round, far, crossings, places);
+      log(fmt::format("warning: {} places stay up to {:.2f} mm from the original surface, near {}", far,
+                      1e3 * largest_distance(sheets), geometry::list_places_mm(places)));
+      return;
+    }
     for (std::size_t s = 0; s < sheets.size(); ++s) {
       due[s] = !spots[s].empty();
       if (due[s]) refine(sheets[s], spots[s], gradation);

@@ -51,7 +51,7 @@ GeometrySurfaces from(const geometry::ParametricDissection& shape, const Complex
 
 GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) {
   const double unit = files.metres_per_unit;
-  GeometrySurfaces result{{{}, {}, {}}, 1, files.roles};
+  GeometrySurfaces result{{{}, {}, {}}, 1, files.roles, files.genus};
   if (!files.openings.empty()) {
     result.surfaces.names = geometry::read_opening_names(files.openings, unit);
     check_names(files.roles, result.surfaces.names);
@@ -73,7 +73,8 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) 
 }
 
 GeometrySurfaces from(const ImageGeometry& image, const ComplexOptions& options) {
-  return {surfaces_from_image(image, options), 1, roles_of(image)};
+  auto made = surfaces_from_image(image, options);
+  return {std::move(made.surfaces), made.lumen_parts, roles_of(image)};
 }
 
 }  // namespace

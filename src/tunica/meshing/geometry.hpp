@@ -18,6 +18,7 @@ struct SurfaceFiles {
   double metres_per_unit = 0;
   VesselRoles roles;
   std::optional<GrowthSettings> wall;  ///< for the wall that is grown when there is no outer one
+  std::optional<int> genus{};          ///< of the lumen, where it is known
 
   static config::Schema<SurfaceFiles> schema();
 };
@@ -33,6 +34,7 @@ struct GeometrySurfaces {
   PatientSurfaces surfaces;
   int lumen_parts = 1;
   VesselRoles roles;
+  std::optional<int> genus{};  ///< that the lumen must have
 };
 
 /// Reads or makes the surfaces; grows the wall where none is given. Errors as of the functions that it calls.

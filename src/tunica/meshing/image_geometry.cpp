@@ -1,5 +1,12 @@
 #include "tunica/meshing/image_geometry.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tunica/base/error.hpp"
+#include "tunica/imaging/chosen_ends.hpp"
+
 namespace tunica::meshing {
 
 config::Schema<ImageGeometry> ImageGeometry::schema() {
@@ -16,13 +23,56 @@ config::Schema<ImageGeometry> ImageGeometry::schema() {
   return schema;
 }
 
+namespace {
+
+constexpr double as_wide_as_the_aorta = 0.75;  // of the inlet's radius
+
+/// Ends that nothing names are called inlet, outlet_1, ... by falling area.
+void check_unnamed_aorta_ends(const ImageGeometry& geometry, const imaging::LabelSurface& made) {
+  const double inlet = imaging::inlet_of(made.ends, geometry.surface).radius;
+  const auto wide = std::count_if(made.ends.begin(), made.ends.end(),
+                                  [&](const auto& end) { return end.radius > as_wide_as_the_aorta * inlet; }) -
+                    1;
+  if (wide > std::ssize(geometry.aorta_ends))
+    throw InputError("aorta_ends",
+                     fmt::format("{} openings are about as wide as the inlet, {} are said to be ends of the aorta",
+                                 wide, geometry.aorta_ends.size()),
+                     "give `aorta_ends: [outlet_1]`, or name the `openings`");
+}
+
+/// The aorta taken for a branch would lose its regions of the wall without a word.
+void check_aorta_ends(const ImageGeometry& geometry, const imaging::LabelSurface& made) {
+  const auto& openings = geometry.surface.openings;
+  if (openings.empty()) return check_unnamed_aorta_ends(geometry, made);
+  const auto* inlet = &imaging::inlet_of(made.ends, geometry.surface);
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    const auto& ends = geometry.aorta_ends;
+    const auto& name = openings[i].first;
+    if (&made.ends[i] == inlet || std::find(ends.begin(), ends.end(), name) != ends.end()) continue;
+    if (made.ends[i].radius > as_wide_as_the_aorta * inlet->radius)
+      problems.push_back(
+          {"aorta_ends",
+           fmt::format("the opening {}, of radius {:.1f} mm, is about as wide as the inlet, of {:.1f} mm, "
+                       "and counts as the end of a branch",
+                       name, 1e3 * made.ends[i].radius, 1e3 * inlet->radius),
+           fmt::format("give `aorta_ends: [{}]`", name)});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace
+
 VesselRoles roles_of(const ImageGeometry& geometry) { return {geometry.surface.inlet, geometry.aorta_ends, {}, {}}; }
 
-PatientSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options) {
+ImageSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options) {
   const auto made = imaging::surface_of(imaging::read_label_image(geometry.file), geometry.surface, options.log);
+  check_aorta_ends(geometry, made);
   std::vector<geometry::NamedPlace> names;
   for (const auto& [name, opening] : geometry.surface.openings) names.push_back({name, made.ends[names.size()].centre});
-  return with_grown_wall(made.lumen, names, geometry.wall, roles_of(geometry), options);
+  auto growing = options;
+  growing.lumen_parts = made.parts;
+  return {with_grown_wall(made.lumen, names, geometry.wall, roles_of(geometry), growing), made.parts};
 }
 
 }  // namespace tunica::meshing

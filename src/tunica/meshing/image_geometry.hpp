@@ -23,8 +23,13 @@ struct ImageGeometry {
 /// What its openings are.
 VesselRoles roles_of(const ImageGeometry& geometry);
 
+struct ImageSurfaces {
+  PatientSurfaces surfaces;
+  int lumen_parts = 1;  ///< 2: true and false lumen are apart
+};
+
 /// Reads the image and makes lumen and outer surface of it. Errors as of `read_label_image`, `surface_of` and
-/// `meshing::with_grown_wall`.
-PatientSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options);
+/// `meshing::with_grown_wall`; InputError for an opening nearly as wide as the inlet that is no end of the aorta.
+ImageSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options);
 
 }  // namespace tunica::meshing

@@ -92,6 +92,18 @@ void check_scale(const std::vector<geometry::Opening>& openings) {
                      "check `length_unit`");
 }
 
+/// Before anything that takes time: another genus means a hole in the flap, or vessels that touch.
+void check_genus(const geometry::TriangleSurface& lumen, const ComplexOptions& options) {
+  if (!options.genus) return;
+  const auto loops = std::ssize(geometry::boundary_loops(lumen));
+  const auto genus = geometry::genus(lumen, loops) + options.lumen_parts - 1;
+  if (genus != *options.genus)
+    throw InputError(
+        "lumen surface",
+        fmt::format("has genus {}, asked for is {}: every tear beyond the first makes one", genus, *options.genus),
+        "look for holes in the flap, closed tears and vessels that touch, or correct `genus`");
+}
+
 /// No sheet is coarser than the other one allows at a distance.
 void agree_on_sizes(std::vector<Sheet>& sheets, const geometry::SizeSettings& settings) {
   if (sheets.size() < 2) return;
@@ -152,6 +164,7 @@ SurfaceComplex close_at_openings(const geometry::TriangleSurface& lumen, const g
 
 PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexOptions& options) {
   auto lumen = mended(surfaces.lumen, "lumen surface", options.lumen_parts, options);
+  check_genus(lumen, options);
   std::optional<geometry::TriangleSurface> outer;
   if (surfaces.outer) {
     outer = mended(*surfaces.outer, "outer surface", 1, options);

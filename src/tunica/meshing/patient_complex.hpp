@@ -30,6 +30,7 @@ struct ComplexOptions {
   double diameter_reach = 0.1;    ///< nor do wider vessels [m]
   Log log = [](const std::string&) {};  ///< gets what was mended, done and measured, one line each
   std::filesystem::path spots;          ///< .vtp file for places of problems; empty: none is written
+  std::optional<int> genus{};           ///< that the lumen surface must have; none: any
 };
 
 struct PreparedSurfaces {
@@ -44,7 +45,8 @@ struct PreparedSurfaces {
 
 /// Mends both surfaces, flattens their rims, remeshes them and closes them with plane caps and rings. Patches:
 /// interface, wall_outer, and for each opening lumen_<name> and wall_<name>. InputError for surfaces that cannot be
-/// mended or do not fit together, SolverError when the remeshed ones are too far from the originals or cross.
+/// mended, have another genus than asked for or do not fit together, SolverError when the remeshed ones are too far
+/// from the originals or cross.
 PreparedSurfaces patient_complex(const PatientSurfaces& surfaces, const ComplexOptions& options);
 
 /// `mend_surface` with what it did in the log; `name` is for messages.

@@ -22,7 +22,7 @@ bool in_box(const Point& p, double x, double y, double z) {
 TEST(LumenMask, LumenStaysWhereItIsInTheImage) {
   const auto label = [](const Point& p) { return norm(p - Point{{2 * mm, 1 * mm, -3 * mm}}) < 4 * mm ? 7 : 3; };
   const auto image = image_of(label, {32, 30, 28}, oblique());
-  const auto mask = lumen_mask(image, {.true_lumen = 7, .false_lumen = {}}, 3, silent);
+  const auto mask = lumen_mask(image, {.true_lumen = 7, .false_lumen = {}, .tissue = {3}}, 3, silent);
   std::int64_t inside = 0;
   for (std::int64_t i = 0; i < mask.frame.count(); ++i) {
     EXPECT_EQ(mask.is_lumen(i), label(mask.frame.place(mask.frame.voxel(i))) == 7);

@@ -35,7 +35,7 @@ int branched(const Point& p) {
 
 TEST(VesselEnds, OfATrunkWithABranch) {
   const Segmented vessel(image_of(branched, {74, 20, 64}, straight));
-  const auto ends = find_ends(vessel.mask, vessel.field);
+  const auto ends = find_ends(vessel.mask, vessel.field).flat;
   ASSERT_EQ(ends.size(), 3U);
   const VesselEnd expected[] = {{{{0, 0, -18 * mm}}, {{0, 0, -1}}, 3.5 * mm},
                                 {{{0, 0, 20 * mm}}, {{0, 0, 1}}, 3.5 * mm},
@@ -55,7 +55,7 @@ TEST(VesselEnds, RoundAndEndlessVesselsHaveNone) {
   const Segmented ring(
       image_of([](const Point& p) { return std::hypot(std::hypot(p[0], p[1]) - 8 * mm, p[2]) < 2.5 * mm; },
                {34, 34, 12}, straight));
-  EXPECT_TRUE(find_ends(ring.mask, ring.field).empty());
+  EXPECT_TRUE(find_ends(ring.mask, ring.field).flat.empty());
   // One end flat, the other a half-sphere.
   const Segmented stump(image_of(
       [](const Point& p) {
@@ -63,7 +63,7 @@ TEST(VesselEnds, RoundAndEndlessVesselsHaveNone) {
                norm(p - Point{{0, 0, 8 * mm}}) < 3.5 * mm;
       },
       {20, 20, 40}, straight));
-  const auto ends = find_ends(stump.mask, stump.field);
+  const auto ends = find_ends(stump.mask, stump.field).flat;
   ASSERT_EQ(ends.size(), 1U);
   EXPECT_NEAR(ends[0].centre[2] / mm, -10, 0.35);
 }

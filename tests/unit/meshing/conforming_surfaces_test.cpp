@@ -34,5 +34,24 @@ TEST(RemeshTogether, SaysWhereItFails) {
   EXPECT_TRUE(says(text, "pairs of triangles cross, near (")) << text;
 }
 
+TEST(RemeshTogether, AFewPlacesMayStayTooFarWithAWarning) {
+  const auto surface = tube(5e-3, 10e-3, 90, 30);
+  Accuracy accuracy;
+  accuracy.rounds = 1;
+  accuracy.absolute = 1e-7;  // no mesh is so near
+  std::string last;
+  const auto make = [&] {
+    std::vector<Sheet> sheets;
+    sheets.push_back({{geometry::TriangleTree(surface), {}, std::vector<double>(surface.points.size(), 2e-3)}, {}, {}});
+    remesh_together(sheets, accuracy, 0.3, [&](const std::string& line) { last = line; });
+  };
+  EXPECT_TRUE(says(message_of<SolverError>(make), "places are too far from the original surface"));
+  accuracy.few = 1000000;
+  make();
+  EXPECT_TRUE(says(last, "warning: ")) << last;
+  accuracy.farthest = 1e-6;
+  EXPECT_TRUE(says(message_of<SolverError>(make), "places are too far from the original surface"));
+}
+
 }  // namespace
 }  // namespace tunica::meshing

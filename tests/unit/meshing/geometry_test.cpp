@@ -91,6 +91,26 @@ TEST(SurfaceFiles, AFalseLumenThatNoTearJoinsIsASecondPart) {
   EXPECT_NEAR(geometry::area(made.surfaces.lumen), geometry::area(lumen) + geometry::area(closed), 1e-9);
 }
 
+TEST(PatientComplex, AnotherGenusThanAskedForIsAnErrorAtOnce) {
+  ComplexOptions options;
+  options.genus = 1;
+  const auto text = message_of<InputError>([&] { patient_complex({tube(5 * mm, 20 * mm, 40, 20), {}, {}}, options); });
+  EXPECT_TRUE(says(text, "has genus 0, asked for is 1")) << text;
+}
+
+TEST(ImageGeometry, AnOpeningAsWideAsTheInletIsAnEndOfTheAorta) {
+  const Folder folder;
+  const auto image = imaging::testing::image_of(
+      [](const geometry::Point& p) { return std::hypot(p[0], p[1]) < 5 * mm && std::abs(p[2]) < 10 * mm ? 1 : 0; },
+      {24, 24, 36}, imaging::testing::straight);
+  imaging::write_label_image(image, folder.path / "scan.nrrd");
+  ImageGeometry geometry;
+  geometry.file = folder.path / "scan.nrrd";
+  geometry.surface.openings = {{"upper", {{{0, 0, 10 * mm}}, {}}}, {"lower", {{{0, 0, -10 * mm}}, {}}}};
+  const auto text = message_of<InputError>([&] { surfaces_of(geometry, {}); });
+  EXPECT_TRUE(says(text, "give `aorta_ends: [lower]`")) << text;
+}
+
 TEST(ImageGeometry, IsALumenWithAWallAroundIt) {
   const Folder folder;
   const auto image = imaging::testing::image_of(

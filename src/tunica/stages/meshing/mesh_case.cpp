@@ -44,6 +44,16 @@ meshing::WallLayers find_layers(const geometry::Tetrahedra& mesh, meshing::Surfa
   return meshing::wall_layers(mesh, faces.interface);
 }
 
+/// A hole in the flap or a fold taken for one shows here, whatever the geometry came from.
+void compare_tears(const geometry::TriangleSurface& lumen, int parts, std::size_t tears, const files::Say& tell) {
+  const auto genus = geometry::genus(lumen, std::ssize(geometry::boundary_loops(lumen))) + parts - 1;
+  if (tears > 0 && static_cast<std::int64_t>(tears) != genus + 1)
+    tell(
+        fmt::format("warning: {} tears are found in the mesh, but a lumen of genus {} has {}: look at the tears in the "
+                    "report",
+                    tears, genus, genus + 1));
+}
+
 }  // namespace
 
 MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) {
@@ -58,6 +68,7 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   phases.begin("surfaces");
   const auto geometry = meshing::surfaces_of(*mesh_case.geometry, options);
   options.lumen_parts = geometry.lumen_parts;
+  options.genus = geometry.genus;
   phases.begin("remeshing");
   const auto prepared = meshing::patient_complex(geometry.surfaces, options);
   const auto openings = meshing::with_inlet_first(prepared.openings, geometry.roles);
@@ -90,6 +101,7 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);
   const auto layers = find_layers(mesh, faces);
   const auto tears = meshing::find_tears(mesh, regions.side);
+  compare_tears(prepared.lumen.surface(), options.lumen_parts, tears.size(), tell);
   const auto across = meshing::resolution(mesh, openings, faces, regions, tears);
   phases.end();
   const auto report = meshing::mesh_report({data, layers, fidelity, prepared.thickness, tears, phases.seconds,

@@ -1,0 +1,251 @@
+#include "tunica/imaging/lumen_topology.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/error.hpp"
+#include "tunica/imaging/distance.hpp"
+
+namespace tunica::imaging {
+
+namespace {
+
+constexpr double short_way = 15e-3;      // m; rings that are no longer are roughness
+constexpr double film = 3.5;             // square of its width over its area
+constexpr double largest_loss = 0.3e-6;  // m^3; of a lumen, by filter and least flap
+constexpr float shut = 0.25F;            // of the field where it is raised: about half a voxel of wall on each side
+
+std::vector<float> depth_in(const ImageFrame& frame, const VoxelSet& set) {
+  auto depth = signed_distance(frame, set);
+  for (auto& d : depth) d = -d;
+  return depth;
+}
+
+Point middle_of(const ImageFrame& frame, const std::vector<std::int64_t>& voxels) {
+  Point sum{{0, 0, 0}};
+  for (const auto i : voxels) sum = sum + frame.place(frame.voxel(i));
+  return (1 / static_cast<double>(voxels.size())) * sum;
+}
+
+/// Of a layer of voxels, one thick [m^2].
+double area_of(const ImageFrame& frame, const std::vector<std::int64_t>& voxels) {
+  return frame.voxel_volume() / frame.largest_spacing() * static_cast<double>(voxels.size());
+}
+
+/// Rings of a few voxels, and those that close by less than two voxels or by a film along a wall.
+bool is_rough(const ImageFrame& frame, const Handle& handle) {
+  const double area = area_of(frame, handle.voxels);
+  const auto middle = middle_of(frame, handle.voxels);
+  double reach = 0;
+  for (const auto i : handle.voxels) reach = std::max(reach, norm(frame.place(frame.voxel(i)) - middle));
+  const double voxel = frame.largest_spacing();
+  return handle.way <= short_way || area < 4 * voxel * voxel || std::pow(2 * reach + voxel, 2) > film * area;
+}
+
+VoxelSet voxels_of(const LumenMask& mask, Kind kind) {
+  VoxelSet set(mask.kinds.size());
+  for (std::size_t i = 0; i < set.size(); ++i) set[i] = mask.kinds[i] == kind;
+  return set;
+}
+
+class Settling {
+ public:
+  Settling(const FlapSides* sides, SmoothField& field) : sides_(sides), field_(field), frame_(field.frame) {
+    true_.assign(field.values.size(), 0);
+    false_ = true_;
+    for (std::int64_t i = 0; i < frame_.count(); ++i)
+      if (field.values[i] < 0) (side_of(i) ? true_ : false_)[i] = 1;
+    // Simple voxels are told from all around them.
+    for (std::int64_t i = 0; i < frame_.count(); ++i)
+      if ((true_[i] || false_[i]) && at_border(i)) true_[i] = false_[i] = 0;
+  }
+
+  /// Without a dissection: rings of at least `smallest_tear` stay.
+  void settle_single(double smallest_tear, const Log& log) {
+    make_ball(true_, "lumen", log, smallest_tear);
+    write();
+  }
+
+  void settle_both(const std::vector<Contact>& tears, const Log& log) {
+    make_ball(true_, "true lumen", log);
+    part_from_true();
+    make_ball(false_, "false lumen", log);
+    one_contact_each(tears, log);
+    write();
+  }
+
+ private:
+  std::int64_t in_box(std::int64_t i) const {
+    if (!sides_) return -1;
+    const auto v = frame_.voxel(i);
+    const Size3 w{v[0] - sides_->low[0], v[1] - sides_->low[1], v[2] - sides_->low[2]};
+    return sides_->frame.holds(w[0], w[1], w[2]) ? sides_->frame.index(w[0], w[1], w[2]) : -1;
+  }
+  bool side_of(std::int64_t i) const {
+    const auto b = in_box(i);
+    return b < 0 || sides_->side[b] > 0;
+  }
+  double to_tear(std::int64_t i) const {
+    const auto b = in_box(i);
+    return b < 0 ? 1.0 : static_cast<double>(sides_->to_tear[b]);
+  }
+  bool at_border(std::int64_t i) const {
+    const auto v = frame_.voxel(i);
+    for (int d = 0; d < 3; ++d)
+      if (v[d] == 0 || v[d] + 1 == frame_.size[d]) return true;
+    return false;
+  }
+  template <class Visit>
+  void for_each_joined(std::int64_t i, const Visit& visit) const {
+    for_each_neighbour(frame_, i, [&](std::int64_t other, const Size3& step) {
+      if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) <= 2) visit(other);
+    });
+  }
+
+  void make_ball(VoxelSet& set, const char* name, const Log& log, double smallest_kept = 1) {
+    const double voxel = frame_.voxel_volume();
+    const double lost = voxel * static_cast<double>(keep_largest_part(frame_, set));
+    if (lost > largest_loss)
+      throw SolverError(
+          fmt::format("{:.2f} ml of the {} are cut off from the rest where it is narrower than the voxels "
+                      "can show; label it wider there, or give a smaller `smoothing`",
+                      1e6 * lost, name));
+    const auto handles = remove_handles(frame_, depth_in(frame_, set), set);
+    std::int64_t cut = 0;
+    for (const auto& handle : handles) {
+      const double area = area_of(frame_, handle.voxels);
+      if (area >= smallest_kept) {
+        for (const auto i : handle.voxels) set[i] = 1;
+        continue;
+      }
+      ++cut;
+      if (handle.way > short_way)
+        log(fmt::format("{}: walls of vessels that the filter had joined are kept apart at {}, {:.1f} mm^2", name,
+                        in_mm(middle_of(frame_, handle.voxels)), 1e6 * area));
+    }
+    if (cut > 0) log(fmt::format("{}: {} handles of the filtered labels opened", name, cut));
+  }
+
+  /// Beside a tear the lumens may touch, nowhere else.
+  void part_from_true() {
+    const double zone = 2 * width_of_rim(frame_.largest_spacing());
+    for (std::int64_t i = 0; i < frame_.count(); ++i) {
+      if (!false_[i] || to_tear(i) <= zone) continue;
+      bool touches = false;
+      for_each_joined(i, [&](std::int64_t other) { touches |= true_[other] != 0; });
+      if (touches) false_[i] = 0;
+    }
+  }
+
+  /// Voxels of the false lumen beside the true one: their largest part at each tear stays.
+  void one_contact_each(const std::vector<Contact>& tears, const Log& log) {
+    std::vector<std::vector<std::int64_t>> parts;
+    std::vector<bool> seen(false_.size(), false);
+    const auto touches = [&](std::int64_t i) {
+      if (!false_[i]) return false;
+      bool found = false;
+      for_each_joined(i, [&](std::int64_t other) { found |= true_[other] != 0; });
+      return found;
+    };
+    for (std::int64_t start = 0; start < frame_.count(); ++start) {
+      if (seen[start] || !touches(start)) continue;
+      auto& part = parts.emplace_back(1, start);
+      seen[start] = true;
+      for (std::size_t next = 0; next < part.size(); ++next)
+        for_each_joined(part[next], [&](std::int64_t other) {
+          if (seen[other] || !touches(other)) return;
+          seen[other] = true;
+          part.push_back(other);
+        });
+    }
+    std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    std::vector<bool> open(tears.size(), false);
+    for (const auto& part : parts) {
+      const auto nearest = nearest_tear(tears, part);
+      if (nearest < tears.size() && !open[nearest]) {
+        open[nearest] = true;
+        continue;
+      }
+      for (const auto i : part) false_[i] = 0;
+    }
+    for (std::size_t t = 0; t < tears.size(); ++t)
+      if (!open[t])
+        log(fmt::format("warning: the tear of {:.0f} mm^2 at {} was closed by the filter", 1e6 * tears[t].area,
+                        in_mm(tears[t].centre)));
+  }
+
+  std::size_t nearest_tear(const std::vector<Contact>& tears, const std::vector<std::int64_t>& part) const {
+    std::size_t best = tears.size();
+    double least = 1;
+    for (std::size_t t = 0; t < tears.size(); ++t)
+      for (const auto i : tears[t].voxels)
+        for (const auto p : {part.front(), part[part.size() / 2]}) {
+          const double distance = norm(frame_.place(frame_.voxel(i)) - frame_.place(frame_.voxel(p)));
+          if (distance >= least) continue;
+          least = distance;
+          best = t;
+        }
+    return best;
+  }
+
+  void write() {
+    for (std::int64_t i = 0; i < frame_.count(); ++i)
+      if (field_.values[i] < 0 && !true_[i] && !false_[i]) field_.values[i] = shut;
+  }
+
+  const FlapSides* sides_;
+  SmoothField& field_;
+  const ImageFrame& frame_;
+  VoxelSet true_, false_;
+};
+
+}  // namespace
+
+std::int64_t open_bridges(LumenMask& mask, bool dissected, double smallest_tear, bool repair, const Log& log) {
+  std::int64_t tears = 0;
+  std::vector<Problem> problems;
+  for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
+    auto set = voxels_of(mask, kind);
+    if (std::count(set.begin(), set.end(), 1) == 0) continue;
+    const auto depth = depth_in(mask.frame, set);
+    for (const auto& handle : remove_handles(mask.frame, depth, set)) {
+      // Most roughness the filter takes away; `settle` does the rest. The false lumen has no vessels that could touch.
+      if (is_rough(mask.frame, handle) || (dissected && kind == Kind::false_lumen)) continue;
+      const double area = area_of(mask.frame, handle.voxels);
+      const auto place = in_mm(middle_of(mask.frame, handle.voxels));
+      if (!dissected && area >= smallest_tear) {
+        ++tears;
+        log(fmt::format("the lumen makes a ring, whose narrowest place is at {}, {:.0f} mm^2: a tear", place,
+                        1e6 * area));
+        continue;
+      }
+      if (dissected && !repair) {
+        problems.push_back(
+            {"image",
+             fmt::format("the true lumen makes a ring of {:.0f} mm: vessels are joined by a bridge at {}, "
+                         "{:.1f} mm^2",
+                         1e3 * handle.way, place, 1e6 * area),
+             "part them in the segmentation, or have the bridge cut by `repair: [bridges]`"});
+        continue;
+      }
+      for (const auto i : handle.voxels) mask.kinds[i] = Kind::tissue;
+      log(fmt::format("{} at {} closed, {:.1f} mm^2", dissected ? "bridge between vessels" : "hole in the flap", place,
+                      1e6 * area));
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return tears;
+}
+
+void settle(const FlapSides* sides, const std::vector<Contact>& tears, double smallest_tear, SmoothField& field,
+            const Log& log) {
+  Settling settling(sides, field);
+  if (sides)
+    settling.settle_both(tears, log);
+  else
+    settling.settle_single(smallest_tear, log);
+}
+
+}  // namespace tunica::imaging
