@@ -22,6 +22,7 @@ void add_converge(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_image(CLI::App& app);
+void add_import(CLI::App& app);
 void add_material(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);

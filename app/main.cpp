@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   tunica::app::add_fibres(app);
   tunica::app::add_fit(app);
   tunica::app::add_image(app);
+  tunica::app::add_import(app);
   tunica::app::add_material(app);
   tunica::app::add_mesh(app);
   tunica::app::add_picture(app);

@@ -5,8 +5,11 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "import.hpp"
 #include "session.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
+#include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/chain.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "version.hpp"
@@ -21,7 +24,7 @@ int run(const stages::RunRequest& request) {
 
 struct Options {
   stages::RunRequest request;
-  std::string case_file, directory, restart_file, until, from;
+  std::string case_file, directory, restart_file, until, from, units;
   bool dry_run = false;
 };
 
@@ -57,7 +60,24 @@ int run_alone(Options& o) {
   return run(o.request);
 }
 
+/// An input file of svMultiPhysics or svFSI becomes a case file in the present folder first.
+void import_first(Options& o) {
+  const std::filesystem::path file = o.case_file;
+  const std::string ending = text::lower(file.extension().string());
+  const bool other = ending == ".xml" || ending == ".inp";
+  if (!other && o.units.empty()) return;
+  refuse(ending == ".yaml" || ending == ".yml", "--units", "is given, but a case file says its units itself",
+         "leave it out");
+  const auto stem = file.has_filename() ? file.stem() : file.parent_path().stem();
+  o.request.case_file = stem.string() + ".yaml";
+  parallel::on_root(MPI_COMM_WORLD, [&] {
+    import_and_report(
+        {.file = file, .case_file = o.request.case_file, .units = o.units, .overwrite = o.request.overwrite});
+  });
+}
+
 int run_either(Options& o) {
+  import_first(o);
   return pipeline::is_chain(o.request.case_file, MPI_COMM_WORLD) ? run_stages(o) : run_alone(o);
 }
 
@@ -72,6 +92,7 @@ void add_run(CLI::App& app) {
       "  mpirun -n 8 tunica run case.yaml --restart          from the last checkpoint, on any number of ranks\n"
       "  tunica run case.yaml --restart results/checkpoints/step_00000200.checkpoint\n"
       "  tunica run case.yaml --output trial --until 10      ten steps, into the folder `trial`\n"
+      "  tunica run solver.xml --units cgs                   as tunica import -o solver.yaml, then run solver.yaml\n"
       "Every section of the case is done. One with the sections mesh, fibres, prestress, outlets, post, report is a\n"
       "chain of stages, each in a folder of its own; the laws of `compare` come last. A stage whose inputs are "
       "unchanged\nis reused, an interrupted one continues:\n"
@@ -104,6 +125,10 @@ void add_run(CLI::App& app) {
   command->add_option("--from", options->from, "Do this stage and all after it anew")
       ->type_name("STAGE")
       ->excludes(overwrite);
+  command
+      ->add_option("--units", options->units,
+                   "Units of a solver.xml or .inp file, as for tunica import: cgs, mmgs or si")
+      ->type_name("SYSTEM");
   command->add_flag("--dry-run", options->dry_run, "Print which stage would be done, and why");
   command->callback([=] {
     stages::RunRequest& request = options->request;

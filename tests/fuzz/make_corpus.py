@@ -329,6 +329,90 @@ def image_corpus():
     write("image/nifti/members.nii.gz", zipped(whole[:400]) + zipped(whole[400:]))
 
 
+# --- cases of other programs --------------------------------------------------------------------------------------
+
+GENERAL = {"Number_of_time_steps": 2, "Time_step_size": "1e-3", "Spectral_radius_of_infinite_time_step": 0.5,
+           "Continue_previous_simulation": 0, "Increment_in_saving_VTK_files": 5, "Verbose": 1}
+INP_NAMES = {"LS": "LS type", "Limiting_high_shear_rate_viscosity": "Limiting high shear-rate viscosity",
+             "Power_law_index": "Power-law index (n)"}
+
+
+def peer_mesh(name, faces, more=()):
+    return [("Add_mesh", name, [("Mesh_file_path", "%s/volume.vtu" % name)] +
+             [("Add_face", face, [("Face_file_path", "%s/%s.vtp" % (name, face))]) for face in faces] + list(more))]
+
+
+def condition(face, **keys):
+    return ("Add_BC", face, list(keys.items()))
+
+
+def peer_flow():
+    return peer_mesh("lumen", ["inlet", "outlet", "side"], [("Mesh_scale_factor", 0.1)]) + [("Add_equation", "fluid", [
+        ("Tolerance", "1e-5"), ("Density", 1.06), ("Viscosity", "Carreau-Yasuda", [
+            ("Limiting_high_shear_rate_viscosity", 0.022), ("Limiting_low_shear_rate_viscosity", 0.22),
+            ("Shear_rate_tensor_multiplier", 0.11), ("Shear_rate_tensor_exponent", 0.644), ("Power_law_index", 0.392)]),
+        ("LS", "NS", [("Tolerance", "1e-3"), ("NS_GM_tolerance", "1e-3")]),
+        ("Output", "Spatial", [("Velocity", "1"), ("WSS", "1")]),
+        condition("inlet", Type="Dir", Time_dependence="Unsteady", Temporal_values_file_path="in.flow",
+                  Profile="Parabolic", Impose_flux="1"),
+        ("Add_BC", "outlet", [("Type", "Neu"), ("Time_dependence", "RCR"), ("RCR_values", "", [
+            ("Proximal_resistance", 121), ("Capacitance", "1.5e-5"), ("Distal_resistance", 1212)])]),
+        condition("side", Type="Dir", Value="0.0")])]
+
+
+def peer_fsi():
+    fibres = [("Domain", 1), ("Fiber_direction", "(0.7, 0.7, 0)"), ("Fiber_direction", "(0.7, -0.7, 0)")]
+    return peer_mesh("lumen", ["in", "out", "side"], [("Domain", 0)]) + \
+        peer_mesh("wall", ["start", "end", "inner", "outer"], fibres) + [
+            ("Add_projection", "inner", [("Project_from_face", "side")]),
+            ("Add_equation", "FSI", [
+                ("Tolerance", "1e-6"), ("Max_iterations", 7),
+                ("Domain", "0", [("Equation", "fluid"), ("Density", 1.0), ("Viscosity", "Constant", [("Value", 0.04)])]),
+                ("Domain", "1", [("Equation", "ustruct"), ("Density", 1.2), ("Elasticity_modulus", "1e6"),
+                                 ("Poisson_ratio", 0.5), ("Constitutive_model", "HGO", [
+                                     ("a4", "1e5"), ("b4", 5), ("a6", "1e5"), ("b6", 5), ("kappa", 0.1)])]),
+                condition("in", Type="Neu", Value="5.0e4"),
+                condition("start", Type="Dir", Value="0.0", Effective_direction="(0, 0, 1)"),
+                condition("outer", Type="Robin", Stiffness="1e5", Damping="10")]),
+            ("Add_equation", "mesh", [("Poisson_ratio", 0.3), condition("in", Type="Dir", Value="0.0")])]
+
+
+def as_xml(entries):
+    attribute = {"Add_equation": "type", "Domain": "id", "Viscosity": "model", "LS": "type", "Output": "type",
+                 "Constitutive_model": "type"}
+    text = ""
+    for entry in entries:
+        if len(entry) == 2:
+            text += "<%s> %s </%s>\n" % (entry[0], entry[1], entry[0])
+        else:
+            label = ' %s="%s"' % (attribute.get(entry[0], "name"), entry[1]) if entry[1] else ""
+            text += "<%s%s>\n%s</%s>\n" % (entry[0], label, as_xml(entry[2]), entry[0])
+    return text
+
+
+def as_inp(entries):
+    text = ""
+    for entry in entries:
+        key = INP_NAMES.get(entry[0], entry[0].replace("_", " "))
+        if entry[0] == "RCR_values":
+            text += "RCR values: (%s)\n" % ", ".join(str(value).replace("e", "D") for _, value in entry[2])
+        elif len(entry) == 2:
+            text += "%s: %s\n" % (key, entry[1])
+        else:
+            text += "%s: %s {\n%s}\n" % (key, entry[1], as_inp(entry[2]))
+    return text
+
+
+def peer_corpus():
+    for name, entries in (("flow", peer_flow()), ("fsi", peer_fsi())):
+        write("peer/xml/%s.xml" % name, "<?xml version=\"1.0\"?>\n<svMultiPhysicsFile version=\"0.1\">\n" + as_xml(
+            [("GeneralSimulationParameters", "", list(GENERAL.items()))] + entries) + "</svMultiPhysicsFile>\n")
+        write("peer/inp/%s.inp" % name, "# general\n" + as_inp(list(GENERAL.items()) + entries))
+    write("peer/zerod/outlets.json", json.dumps({
+        "boundary_conditions": [{"bc_name": "R", "bc_type": "RCR", "bc_values": {"Rp": 121, "Rd": 1212, "C": 1e-4}}],
+        "external_solver_coupling_blocks": [{"name": "outlet", "type": "FLOW", "connected_block": "R"}]}, indent=1))
+
+
 # --- tables, cases ------------------------------------------------------------------------------------------------
 
 def table_corpus():
@@ -336,6 +420,7 @@ def table_corpus():
     write("table/waveform/two_columns.csv", "# measured\nt_s,Q_ml_per_s\n0,1.5\n0.1,20\n0.15,12\n0.2,1.5\n")
     write("table/waveform/quoted.csv", '"t","flow"\r\n0,1\r\n+0.5,2\r\n.7,3\r\n1,1\r\n')
     write("table/waveform/simvascular.flow", "5 3\n0 -1\n0.25 -2\n0.5 -3\n0.75 -2\n1 -1\n")
+    write("table/waveform/coefficients.fcs", "0.0 1.0\n2.0 0.5\n3\n-1.5 0\n0.5 -0.25\n0 1e-3\n")
     write("table/openings/names.csv",
           "name,centre_x,centre_y,centre_z,area\ninlet,0,0,0,1\nleft_iliac,1.5,-2,3e1,2\n# end\n")
     write("table/series/series.pvd",
@@ -438,6 +523,7 @@ if __name__ == "__main__":
     mesh_corpus()
     surface_corpus()
     image_corpus()
+    peer_corpus()
     table_corpus()
     yaml_corpus()
     artifacts_corpus()

@@ -24,6 +24,7 @@ namespace tunica::artifacts {
 
 namespace {
 
+namespace fs = std::filesystem;
 using mesh::LoadedMesh;
 using mesh::RegionKind;
 
@@ -37,43 +38,62 @@ void collect(std::vector<Problem>& problems, Action action) {
   }
 }
 
-/// Point arrays that the supports of the case want, by face.
-std::map<std::string, std::vector<std::string>> support_arrays(const case_file::Case& c) {
-  std::map<std::string, std::vector<std::string>> arrays;
-  for (const auto& [face, condition] : c.boundary)
-    if (const auto* support = std::get_if<bc::Support>(&condition); support && !support->arrays().empty())
-      arrays[face] = support->arrays();
-  return arrays;
-}
-
 /// What the wall needs of its mesh besides the shape.
 struct WallArrays {
-  std::vector<std::string> fields;                              ///< of the elements
-  std::map<std::string, std::vector<std::string>> face_arrays;  ///< of the nodes of faces
+  std::vector<std::string> fields;                                      ///< of the elements
+  std::map<std::string, std::vector<std::string>> face_arrays{};        ///< of the nodes of faces
+  std::map<std::string, std::vector<mesh_io::OtherFile>> face_files{};  ///< likewise, in files of their own
 };
+
+/// With the point arrays that the supports of the case want, by face.
+WallArrays wall_arrays(const case_file::Case& c) {
+  WallArrays arrays{c.frame_arrays()};
+  for (const auto& [face, condition] : c.boundary) {
+    const auto* support = std::get_if<bc::Support>(&condition);
+    if (support == nullptr) continue;
+    for (const bc::FaceArray& array : support->arrays()) {
+      if (array.file)
+        arrays.face_files[face].push_back({array.name, *array.file, array.name});
+      else
+        arrays.face_arrays[face].push_back(array.name);
+    }
+  }
+  return arrays;
+}
 
 mesh_io::SimVascularOptions wall_options(const case_file::WallMesh& wall, mesh_io::SimVascularOptions options,
                                          const WallArrays& arrays) {
   options.fields = arrays.fields;
   options.face_arrays = arrays.face_arrays;
+  options.other_face_files = arrays.face_files;
+  for (const auto& [name, other] : wall.arrays)
+    options.other_files.push_back({name, other.file, other.array.value_or(name)});
   if (!wall.region_array) return options;
   options.regions.emplace().array = *wall.region_array;
   for (const auto& [name, number] : wall.regions) options.regions->names.emplace(number, name);
   return options;
 }
 
+/// A folder, or files of their own.
+LoadedMesh read_region(const fs::path& folder, const case_file::NamedFiles& files, RegionKind kind,
+                       const std::string& name, const mesh_io::SimVascularOptions& options) {
+  if (files.volume.empty()) return mesh_io::read_simvascular(folder, kind, name, options);
+  return mesh_io::read_mesh_files({files.volume, {files.faces.begin(), files.faces.end()}, files.rest}, kind, name,
+                                  options);
+}
+
 LoadedMesh read_regions(const case_file::MeshSettings& m, const WallArrays& arrays) {
   std::vector<LoadedMesh> parts;
   std::vector<Problem> problems;
-  const mesh_io::SimVascularOptions options{.metres_per_unit = *m.metres_per_unit};
+  const mesh_io::SimVascularOptions options{.metres_per_unit = m.metres()};
   if (m.lumen)
     collect(problems, [&] {
-      parts.push_back(mesh_io::read_simvascular(m.lumen->simvascular, RegionKind::lumen, "lumen", options));
+      parts.push_back(read_region(m.lumen->simvascular, m.lumen->files, RegionKind::lumen, "lumen", options));
     });
   if (m.wall)
     collect(problems, [&] {
-      parts.push_back(mesh_io::read_simvascular(m.wall->simvascular, RegionKind::wall, "wall",
-                                                wall_options(*m.wall, options, arrays)));
+      parts.push_back(read_region(m.wall->simvascular, m.wall->files, RegionKind::wall, "wall",
+                                  wall_options(*m.wall, options, arrays)));
     });
   if (!problems.empty()) throw InputError(std::move(problems));
   if (!m.interface) return mesh::join(parts, {}, {});
@@ -91,13 +111,14 @@ mesh::TubeSizes with_areas_of_circles(mesh::TubeSizes sizes) {
 }
 
 LoadedMesh read_or_generate(const case_file::MeshSettings& m, const WallArrays& arrays) {
-  if ((m.tube || m.gmsh) && !arrays.face_arrays.empty())
-    throw InputError("boundary." + arrays.face_arrays.begin()->first,
+  if ((m.tube || m.gmsh) && !(arrays.face_arrays.empty() && arrays.face_files.empty()))
+    throw InputError("boundary." + (arrays.face_arrays.empty() ? arrays.face_files.begin()->first
+                                                               : arrays.face_arrays.begin()->first),
                      "names a point array, which only SimVascular folders bring",
                      "give a constant, or the wall as `simvascular`");
   if (m.tube) return {mesh::tube(with_areas_of_circles(*m.tube)), {}};
   if (!m.gmsh) return read_regions(m, arrays);
-  mesh_io::GmshOptions options{.metres_per_unit = *m.metres_per_unit, .regions = {}, .fields = arrays.fields};
+  mesh_io::GmshOptions options{.metres_per_unit = m.metres(), .regions = {}, .fields = arrays.fields};
   for (const auto& [name, kind] : m.gmsh->regions) options.regions.push_back({name, kind});
   return mesh_io::read_gmsh(m.gmsh->file, options);
 }
@@ -143,7 +164,8 @@ CheckedMesh read_and_measure(const case_file::MeshSettings& m, const WallArrays&
   LoadedMesh loaded = read_or_generate(m, arrays);
   CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
   report_quality(mesh, problems);
-  if (const auto odd = mesh::implausible_size(mesh.data, m.metres_per_unit)) mesh.warnings.push_back(format(*odd));
+  if (const auto odd = mesh::implausible_size(mesh.data, m.metres_per_unit ? std::optional(m.metres()) : std::nullopt))
+    mesh.warnings.push_back(format(*odd));
   return mesh;
 }
 
@@ -151,7 +173,7 @@ CheckedMesh read_and_measure(const case_file::MeshSettings& m, const WallArrays&
 
 CheckedMesh load_meshes(const case_file::MeshSettings& meshes, const std::vector<std::string>& fields) {
   std::vector<Problem> problems;
-  CheckedMesh mesh = read_and_measure(meshes, {fields, {}}, problems);
+  CheckedMesh mesh = read_and_measure(meshes, {fields}, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return mesh;
 }
@@ -193,7 +215,7 @@ CheckedMesh load_mesh(const case_file::Case& c) {
     throw InputError(c.mesh ? "mesh" : "fibres", "is a stage to be done first, which `tunica run` alone does",
                      "use `tunica run`, or the case file in the folder of a stage that it has made");
   std::vector<Problem> problems;
-  CheckedMesh mesh = read_and_measure(c.meshes, {c.frame_arrays(), support_arrays(c)}, problems);
+  CheckedMesh mesh = read_and_measure(c.meshes, wall_arrays(c), problems);
   const auto wrong = check_faces(c, faces_of(mesh.data));
   problems.insert(problems.end(), wrong.begin(), wrong.end());
   // The wall's nodes of the interface were moved onto the lumen's, a prestress of the wall alone knows them where they

@@ -39,11 +39,11 @@ Waveform inflow(const Flow& flow) {
   return make_waveform(flow.course).scaled(outflow ? -1.0 : 1.0);
 }
 
-std::vector<std::string> Support::arrays() const {
-  std::vector<std::string> names;
+std::vector<FaceArray> Support::arrays() const {
+  std::vector<FaceArray> arrays;
   for (const auto* value : {&stiffness, &damping, &pressure})
-    if (const auto* array = std::get_if<FaceArray>(value)) names.push_back(array->name);
-  return names;
+    if (const auto* array = std::get_if<FaceArray>(value)) arrays.push_back(*array);
+  return arrays;
 }
 
 }  // namespace tunica::bc

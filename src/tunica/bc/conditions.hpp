@@ -108,10 +108,11 @@ struct Free {
   static config::Schema<Free> schema();
 };
 
-/// A point array of a face in the mesh file.
+/// A point array of a face, in the mesh file or in one of its own.
 struct FaceArray {
   std::string name;
-  double unit = 1.0;  ///< SI value of 1
+  double unit = 1.0;                               ///< SI value of 1
+  std::optional<std::filesystem::path> file = {};  ///< .vtp with the points of the face
 };
 /// The same on the whole face [SI], or an array.
 using SupportValue = std::variant<double, FaceArray>;
@@ -126,8 +127,8 @@ struct Support {
   Direction direction = Direction::full;
   /// Has it a stiffness, anywhere?
   bool holds() const { return stiffness.index() != 0 || std::get<double>(stiffness) > 0; }
-  /// Names of the point arrays that it wants.
-  std::vector<std::string> arrays() const;
+  /// The point arrays that it wants.
+  std::vector<FaceArray> arrays() const;
   static config::Schema<Support> schema();
 };
 

@@ -45,6 +45,14 @@ void check_table(const TableSource& table, Problems& problems) {
     problems.add("period", "a period is given with `periodic: false`", "remove one of them");
   if (!options.periodic && options.interpolation == Interpolation::fourier)
     problems.add("interpolation", "a Fourier series needs a periodic table", "set `periodic: true` or use spline");
+  if (table.file.format == TableFormat::fourier &&
+      (options.interpolation != Interpolation::linear || options.period || options.modes > 0 || options.trend))
+    problems.add("format", "is fourier, whose file says all about interpolation, period, modes and trend",
+                 "remove these keys");
+  if (options.trend && options.interpolation != Interpolation::fourier)
+    problems.add("trend", "belongs to a Fourier series", "set `interpolation: fourier` or remove `trend`");
+  if (options.trend && options.period)
+    problems.add("period", "is given beside `trend`, for which the table is one period", "remove one of them");
   if (options.modes > 0 && options.interpolation != Interpolation::fourier)
     problems.add("modes", "modes belong to a Fourier series", "set `interpolation: fourier` or remove `modes`");
 }
@@ -57,8 +65,11 @@ Schema<TableSource> table_schema(const config::Dimension& due) {
           "CSV with a header line, or a SimVascular .flow file")
       .choice(
           "format", [](TableSource & t) -> auto& { return t.file.format; },
-          {{"automatic", TableFormat::automatic}, {"csv", TableFormat::csv}, {"simvascular", TableFormat::simvascular}},
-          "Automatic: by the extension, .csv or .flow")
+          {{"automatic", TableFormat::automatic},
+           {"csv", TableFormat::csv},
+           {"simvascular", TableFormat::simvascular},
+           {"fourier", TableFormat::fourier}},
+          "Automatic: by the extension, .csv, .flow, or .fcs for the coefficients of a Fourier series")
       .by_default()
       .text(
           "time_column", [](TableSource & t) -> auto& { return t.file.time_column; },
@@ -83,8 +94,12 @@ Schema<TableSource> table_schema(const config::Dimension& due) {
   schema
       .choice(
           "interpolation", [](TableSource & t) -> auto& { return t.options.interpolation; },
-          {{"linear", Interpolation::linear}, {"spline", Interpolation::spline}, {"fourier", Interpolation::fourier}},
-          "Straight lines, cubic spline, or the first modes of the Fourier series")
+          {{"linear", Interpolation::linear},
+           {"spline", Interpolation::spline},
+           {"fourier", Interpolation::fourier},
+           {"ramp", Interpolation::ramp}},
+          "Straight lines, cubic spline, the first modes of the Fourier series, or one straight line from the first "
+          "value to the last, which hold before and after")
       .by_default()
       .flag(
           "periodic", [](TableSource & t) -> auto& { return t.options.periodic; },
@@ -97,6 +112,12 @@ Schema<TableSource> table_schema(const config::Dimension& due) {
           "modes", [](TableSource & t) -> auto& { return t.options.modes; }, at_least(1),
           "Fourier modes, the mean included; when left out those named in a .flow file")
       .optional()
+      .flag(
+          "trend", [](TableSource & t) -> auto& { return t.options.trend; },
+          "Fourier: the straight line from the first to the last value is taken off first and added in every period, "
+          "so "
+          "that the table need not close")
+      .by_default()
       .check(check_table);
   return schema;
 }
@@ -126,7 +147,9 @@ Schema<SupportValue> support_value_schema(const config::Dimension& due, const co
                                           const char* high) {
   Schema<FaceArray> array("array", "Values at the nodes of the face.");
   array.text("name", &FaceArray::name, "Point array in the mesh file of the face")
-      .unit("unit", &FaceArray::unit, due, "Its unit");
+      .unit("unit", &FaceArray::unit, due, "Its unit")
+      .file("file", &FaceArray::file,
+            ".vtp with the points of the face, where the array does not stand in its own file");
   return Schema<SupportValue>("support_value", "One value for the face, or an array of its mesh file.")
       .one_of()
       .quantity("value", config::emplace<double>, due, allowed, "The same on the whole face")

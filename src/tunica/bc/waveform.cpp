@@ -166,6 +166,18 @@ Waveform Waveform::table(const Table& table, const TableOptions& options, const 
   check_points(table, where);
   auto t = table.times;
   auto v = table.values;
+  if (options.interpolation == Interpolation::ramp)
+    return Waveform(
+        Polynomial{
+            {t.front(), t.back()}, linear_coefficients({t.front(), t.back()}, {v.front(), v.back()}), false, true},
+        where);
+  FourierSeries line{t.front(), t.back() - t.front(), {}, {}};
+  if (options.trend) {
+    line.value = v.front();
+    line.slope = (v.back() - v.front()) / line.period;
+    for (std::size_t i = 0; i < t.size(); ++i) v[i] -= line.value + line.slope * (t[i] - line.start);
+    v.back() = v.front();
+  }
   if (options.periodic)
     close_period(t, v, options.period, where);
   else if (options.period)
@@ -184,6 +196,7 @@ Waveform Waveform::table(const Table& table, const TableOptions& options, const 
       return Waveform(Polynomial{std::move(t), std::move(c), options.periodic}, where);
     }
     case Interpolation::fourier:
+    case Interpolation::ramp:
       break;
   }
   const int modes = options.modes > 0 ? options.modes : table.modes;
@@ -193,13 +206,29 @@ Waveform Waveform::table(const Table& table, const TableOptions& options, const 
   if (modes < 1 || modes > static_cast<int>(t.size()))
     throw InputError(where, fmt::format("{} Fourier modes; the allowed range is 1 .. {}", modes, t.size()),
                      "give `modes`, or name them in the first line of a .flow file");
-  return Waveform(fourier(t, v, modes), where);
+  FourierSeries series = fourier(t, v, modes);
+  series.value = line.value;
+  series.slope = line.slope;
+  return Waveform(std::move(series), where);
+}
+
+Waveform Waveform::fourier_series(FourierSeries series, const std::string& where) {
+  const auto finite = [](const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (!(series.period > 0) || !std::isfinite(series.period) || !std::isfinite(series.start))
+    throw InputError(where, fmt::format("the period is {} s", series.period), "give a period above zero");
+  if (series.cosine.empty() || series.cosine.size() != series.sine.size() || !finite(series.cosine) ||
+      !finite(series.sine) || !finite({series.value, series.slope}))
+    throw InputError(where, "the series has no modes, or coefficients that are not finite", "give at least the mean");
+  return Waveform(std::move(series), where);
 }
 
 /// Coefficients of the series of the straight-line interpolant, integrated exactly, as SimVascular's solvers do:
 /// `modes` counts the mean, so the highest harmonic is modes - 1.
-Waveform::Fourier Waveform::fourier(const std::vector<double>& t, const std::vector<double>& v, int modes) {
-  Fourier series{t.front(), t.back() - t.front(), std::vector<double>(modes, 0.0), std::vector<double>(modes, 0.0)};
+FourierSeries Waveform::fourier(const std::vector<double>& t, const std::vector<double>& v, int modes) {
+  FourierSeries series{t.front(), t.back() - t.front(), std::vector<double>(modes, 0.0),
+                       std::vector<double>(modes, 0.0)};
   for (std::size_t i = 0; i + 1 < t.size(); ++i)
     series.cosine[0] += 0.5 * (v[i] + v[i + 1]) * (t[i + 1] - t[i]) / series.period;
   for (int k = 1; k < modes; ++k) {
@@ -231,7 +260,7 @@ Waveform Waveform::ramped(double ramp_time) const {
 
 double Waveform::evaluate(const Polynomial& p, double t) const {
   const double start = p.times.front(), end = p.times.back(), slack = time_tolerance * (end - start);
-  if (!p.periodic && !(t >= start - slack && t <= end + slack))
+  if (!p.periodic && !p.holds && !(t >= start - slack && t <= end + slack))
     throw InputError(where_, fmt::format("t = {} s lies outside the table, {} .. {} s", t, start, end),
                      "give a table that spans the simulated time, or set `periodic: true`");
   t = p.periodic ? start + wrapped(t, start, end - start) : std::clamp(t, start, end);
@@ -250,8 +279,9 @@ double Waveform::value(double t) const {
   } else if (const auto* polynomial = std::get_if<Polynomial>(&shape_)) {
     result = evaluate(*polynomial, t);
   } else {
-    const auto& f = std::get<Fourier>(shape_);
-    const double angle = 2.0 * std::numbers::pi * wrapped(t, f.start, f.period) / f.period;
+    const auto& f = std::get<FourierSeries>(shape_);
+    const double h = wrapped(t, f.start, f.period), angle = 2.0 * std::numbers::pi * h / f.period;
+    result = f.value + f.slope * h;
     for (std::size_t k = 0; k < f.cosine.size(); ++k)
       result +=
           f.cosine[k] * std::cos(static_cast<double>(k) * angle) + f.sine[k] * std::sin(static_cast<double>(k) * angle);
@@ -262,7 +292,8 @@ double Waveform::value(double t) const {
 double Waveform::mean() const {
   if (const auto* constant = std::get_if<Constant>(&shape_)) return scale_ * constant->value;
   if (const auto* step = std::get_if<Step>(&shape_)) return scale_ * step->value;
-  if (const auto* series = std::get_if<Fourier>(&shape_)) return scale_ * series->cosine[0];
+  if (const auto* series = std::get_if<FourierSeries>(&shape_))
+    return scale_ * (series->value + 0.5 * series->slope * series->period + series->cosine[0]);
   const auto& p = std::get<Polynomial>(shape_);
   double integral = 0.0;
   for (std::size_t i = 0; i + 1 < p.times.size(); ++i) {
@@ -273,7 +304,7 @@ double Waveform::mean() const {
 }
 
 std::optional<double> Waveform::period() const {
-  if (const auto* series = std::get_if<Fourier>(&shape_)) return series->period;
+  if (const auto* series = std::get_if<FourierSeries>(&shape_)) return series->period;
   const auto* polynomial = std::get_if<Polynomial>(&shape_);
   if (polynomial && polynomial->periodic) return polynomial->times.back() - polynomial->times.front();
   return std::nullopt;
@@ -284,6 +315,8 @@ Waveform make_waveform(const WaveformInput& input) {
     if (const auto* constant = std::get_if<double>(&input.source)) return Waveform::constant(*constant);
     if (const auto* step = std::get_if<Step>(&input.source)) return Waveform::step(*step);
     const auto& source = std::get<TableSource>(input.source);
+    if (is_fourier_series(source.file))
+      return Waveform::fourier_series(read_fourier_series(source.file), source.file.path.string());
     return Waveform::table(read_table(source.file), source.options, source.file.path.string());
   };
   return plain().scaled(input.scale).ramped(input.ramp_time);

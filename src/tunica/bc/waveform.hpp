@@ -14,9 +14,10 @@
 namespace tunica::bc {
 
 enum class Interpolation {
-  linear,  ///< straight lines between the points
-  spline,  ///< cubic spline, twice continuously differentiable: periodic, or natural when the table is not periodic
-  fourier  ///< the first modes of the Fourier series of the straight-line table; periodic tables only
+  linear,   ///< straight lines between the points
+  spline,   ///< cubic spline, twice continuously differentiable: periodic, or natural when the table is not periodic
+  fourier,  ///< the first modes of the Fourier series of the straight-line table; periodic tables only
+  ramp      ///< one straight line from the first value to the last, which hold before and after
 };
 
 /// `value` for start < t <= end, zero before and after. Times that differ from `start` or `end` by less than 1e-9 of
@@ -28,9 +29,10 @@ struct Step {
 };
 
 enum class TableFormat {
-  automatic,   ///< by the extension: .csv, .flow
-  csv,         ///< comments (#), one header line, then numbers separated by commas
-  simvascular  ///< first line "points modes", then "t value" lines
+  automatic,    ///< by the extension: .csv, .flow
+  csv,          ///< comments (#), one header line, then numbers separated by commas
+  simvascular,  ///< first line "points modes", then "t value" lines
+  fourier       ///< .fcs: "start period", "value slope" of the trend, number of modes, then a line for each: "re im"
 };
 
 /// Where a table stands and how its columns become SI.
@@ -50,11 +52,24 @@ struct Table {
   int modes = 0;               ///< Fourier modes named in the file (the mean counts as the first); 0: none named
 };
 
-/// Reads a table. Throws InputError with file and line: missing file or column, not a number, a line with too few
-/// columns, time that does not increase, fewer than two points, another number of points than the file says.
+/// A Fourier series about a straight line: with h the time since the start of the period,
+/// value + slope h + sum of cosine[k] cos(2 pi k h / period) + sine[k] sin(2 pi k h / period).
+struct FourierSeries {
+  double start = 0.0, period = 0.0;  ///< s
+  std::vector<double> cosine, sine;
+  double value = 0.0, slope = 0.0;  ///< SI, SI/s
+};
+
+/// Reads the coefficients of a series; those of the file are of exp(i k omega h). Throws InputError with file and line.
+FourierSeries read_fourier_series(const TableFile& file);
+bool is_fourier_series(const TableFile& file);  ///< by format, or by the extension .fcs
+
+/// Reads a table; of the coefficients of a series, values over a period. Throws InputError with file and line: missing
+/// file or column, not a number, a line with too few columns, time that does not increase, fewer than two points,
+/// another number of points than the file says.
 Table read_table(const TableFile& file);
 
-bool is_simvascular(const TableFile& file);  ///< by format, or by the extension .flow
+bool is_simvascular(const TableFile& file);  ///< by format, or by the extension .flow or .fcs: SimVascular's signs
 
 struct TableOptions {
   Interpolation interpolation = Interpolation::linear;
@@ -63,6 +78,9 @@ struct TableOptions {
   /// first one within 0.1 % of the range. Given: the curve returns to the first value one period after the first time.
   std::optional<double> period = {};
   int modes = 0;  ///< Fourier only, the mean included; 0: as many as the file says
+  /// Fourier only: the straight line from the first to the last value is no part of the series, but added to it; the
+  /// table is one period and need not close.
+  bool trend = false;
 };
 
 struct TableSource {
@@ -86,6 +104,9 @@ class Waveform {
   /// table, Fourier of a table that is not periodic or without a number of modes, fewer than 3 points for a spline.
   static Waveform table(const Table& table, const TableOptions& options, const std::string& where = "table");
 
+  /// `where` as in table(). Throws InputError for a period that is not positive and coefficients that are not finite.
+  static Waveform fourier_series(FourierSeries series, const std::string& where = "series");
+
   Waveform scaled(double factor) const;
   /// Multiplied by (1 - cos(pi t / ramp_time)) / 2 until t = ramp_time; 0 leaves it as it is.
   Waveform ramped(double ramp_time) const;
@@ -106,16 +127,13 @@ class Waveform {
     std::vector<double> times;
     std::vector<double> coefficients;
     bool periodic;
+    bool holds = false;  // the ends hold before and after
   };
-  struct Fourier {  // sum of cosine[k] cos(2 pi k h / period) + sine[k] sin(..), h = t - start
-    double start, period;
-    std::vector<double> cosine, sine;
-  };
-  using Shape = std::variant<Constant, Step, Polynomial, Fourier>;
+  using Shape = std::variant<Constant, Step, Polynomial, FourierSeries>;
 
   template <class S>  // in place: g++ 12 with sanitizers warns of moved variants
   Waveform(S shape, std::string where) : shape_(std::in_place_type<S>, std::move(shape)), where_(std::move(where)) {}
-  static Fourier fourier(const std::vector<double>& times, const std::vector<double>& values, int modes);
+  static FourierSeries fourier(const std::vector<double>& times, const std::vector<double>& values, int modes);
   double evaluate(const Polynomial& polynomial, double t) const;
 
   Shape shape_;

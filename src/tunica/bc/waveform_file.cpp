@@ -93,9 +93,27 @@ Table read_simvascular(const TableFile& file) {
   return table;
 }
 
+/// Eight instants in the shortest wave.
+Table points_of(const FourierSeries& series, const std::string& where) {
+  const Waveform waveform = Waveform::fourier_series(series, where);
+  const auto intervals = 8 * series.cosine.size();
+  Table table{.times = {}, .values = {}, .modes = static_cast<int>(series.cosine.size())};
+  for (std::size_t i = 0; i < intervals; ++i) {
+    table.times.push_back(series.start + series.period * static_cast<double>(i) / static_cast<double>(intervals));
+    table.values.push_back(waveform.value(table.times.back()));
+  }
+  return table;
+}
+
 }  // namespace
 
+bool is_fourier_series(const TableFile& file) {
+  if (file.format != TableFormat::automatic) return file.format == TableFormat::fourier;
+  return text::lower(file.path.extension().string()) == ".fcs";
+}
+
 bool is_simvascular(const TableFile& file) {
+  if (is_fourier_series(file)) return true;
   if (file.format != TableFormat::automatic) return file.format == TableFormat::simvascular;
   const std::string extension = text::lower(file.path.extension().string());
   if (extension == ".flow") return true;
@@ -104,7 +122,38 @@ bool is_simvascular(const TableFile& file) {
                    "set `format` to csv or simvascular");
 }
 
+FourierSeries read_fourier_series(const TableFile& file) {
+  const char* remedy =
+      "the lines are \"start period\", \"value slope\" of the trend, the number of modes, and \"re im\" for each mode";
+  const auto lines = files::read_lines(file.path, remedy);
+  const auto where = [&](std::size_t n) { return fmt::format("{}:{}", file.path.string(), lines[n].number); };
+  const auto numbers = [&](std::size_t n, std::size_t count) {
+    if (n >= lines.size()) throw InputError(where(lines.size() - 1), "the file ends here", remedy);
+    std::vector<double> values;
+    for (const auto cell : split_blanks(lines[n].text)) values.push_back(files::parse_number(cell, where(n), ""));
+    if (values.size() != count)
+      throw InputError(where(n), fmt::format("{} entries, not {}", values.size(), count), remedy);
+    return values;
+  };
+  const auto times = numbers(0, 2), trend = numbers(1, 2);
+  const double modes = numbers(2, 1)[0];
+  if (!(modes >= 1 && modes <= 1e6) || modes != std::floor(modes) ||
+      lines.size() != 3 + static_cast<std::size_t>(modes))
+    throw InputError(where(2), fmt::format("{} modes, and {} lines follow", modes, lines.size() - 3), remedy);
+  FourierSeries series{
+      .start = times[0] * file.time_unit, .period = times[1] * file.time_unit, .cosine = {}, .sine = {}};
+  series.value = trend[0] * file.value_unit;
+  series.slope = trend[1] * file.value_unit / file.time_unit;
+  for (std::size_t n = 3; n < lines.size(); ++n) {
+    const auto mode = numbers(n, 2);
+    series.cosine.push_back(mode[0] * file.value_unit);
+    series.sine.push_back(-mode[1] * file.value_unit);
+  }
+  return series;
+}
+
 Table read_table(const TableFile& file) {
+  if (is_fourier_series(file)) return points_of(read_fourier_series(file), file.path.string());
   Table table = is_simvascular(file) ? read_simvascular(file) : read_csv(file);
   if (table.times.size() < 2)
     throw InputError(file.path.string(), fmt::format("{} points, at least 2 are needed", table.times.size()),

@@ -49,9 +49,23 @@ using Analysis = std::variant<FluidStructure, RigidFlow, DynamicWall, StaticWall
 
 // --- meshes -------------------------------------------------------------------------------------------------------
 
-/// A region whose mesh was exported by SimVascular.
+/// Where the files of a mesh lie when they are no `mesh-complete` folder.
+struct NamedFiles {
+  std::filesystem::path volume;                        ///< .vtu; empty: the folder is given
+  std::map<std::string, std::filesystem::path> faces;  ///< .vtp, by the name of the face
+  std::optional<std::string> rest;                     ///< face of the boundary that no file holds
+};
+
+/// A region whose mesh was exported by SimVascular: a folder, or files.
 struct RegionMesh {
   std::filesystem::path simvascular;  ///< the mesh-complete folder
+  NamedFiles files{};
+};
+
+/// A cell array in a file of its own.
+struct ArrayFile {
+  std::filesystem::path file;
+  std::optional<std::string> array;  ///< its name there; none: the name that it gets
 };
 
 /// A wall whose volume may hold several regions.
@@ -59,6 +73,8 @@ struct WallMesh {
   std::filesystem::path simvascular;  ///< the mesh-complete folder
   std::optional<std::string> region_array;
   std::map<std::string, int> regions;  ///< number in that array, by the name of the region
+  NamedFiles files{};
+  std::map<std::string, ArrayFile> arrays{};  ///< cell arrays that do not stand in the volume, by name
 };
 
 /// Several regions in one Gmsh file.
@@ -81,7 +97,10 @@ struct MeshSettings {
   std::optional<GmshMesh> gmsh;
   std::optional<mesh::TubeSizes> tube;
   std::optional<InterfaceSettings> interface;  ///< present for fluid-structure interaction
+  double scale = 1.0;                          ///< factor on the coordinates in files, besides their unit
 
+  /// Metres of one unit of the coordinates in files.
+  double metres() const { return metres_per_unit.value() * scale; }
   bool given() const { return lumen || wall || gmsh || tube; }
   bool has_lumen() const;
   bool has_wall() const;

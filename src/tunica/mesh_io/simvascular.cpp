@@ -26,57 +26,6 @@ using Index = std::int64_t;
 
 constexpr int vtk_triangle = 5, vtk_tetrahedron = 10;
 
-constexpr const char *volume_name = "mesh-complete.mesh.vtu", *surface_folder = "mesh-surfaces";
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-struct SurfaceFiles {
-  std::vector<fs::path> files;    ///< sorted
-  std::vector<fs::path> ignored;  ///< hidden ones, such as the `._*.vtp` that macOS puts beside files on other disks
-};
-
-/// Sorted; none, with an error, where there is no such folder.
-SurfaceFiles find_surface_files(const fs::path& folder, std::error_code& error) {
-  SurfaceFiles found;
-  for (fs::directory_iterator at(folder / surface_folder, error), end; !error && at != end; at.increment(error)) {
-    const auto& path = at->path();
-    if (lower_case(path.extension().string()) != ".vtp") continue;
-    (path.filename().string().starts_with('.') ? found.ignored : found.files).push_back(path);
-  }
-  std::sort(found.files.begin(), found.files.end());
-  return found;
-}
-
-SurfaceFiles surface_files(const fs::path& folder) {
-  const auto surfaces = folder / surface_folder;
-  std::error_code error;
-  const auto found = find_surface_files(folder, error);
-  if (error || found.files.empty())
-    throw InputError(surfaces.string(),
-                     error ? "cannot be read: " + error.message()
-                           : fmt::format("holds no .vtp file{}", found.ignored.empty() ? "" : " but hidden ones"),
-                     "export the mesh with its named faces (SimVascular: mesh-complete with mesh-surfaces)");
-  for (std::size_t i = 1; i < found.files.size(); ++i)
-    if (found.files[i].stem() == found.files[i - 1].stem())
-      throw InputError(found.files[i].string(),
-                       fmt::format("has the name of another face, {}", found.files[i - 1].filename().string()),
-                       "keep one file for each face");
-  return found;
-}
-
-/// The file of that name in the folder, whatever the case of its letters; the name as it is where there is none.
-fs::path volume_file(const fs::path& folder) {
-  const std::string name = volume_name;
-  std::error_code error;
-  if (fs::exists(folder / name, error)) return folder / name;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (lower_case(at->path().filename().string()) == name) return at->path();
-  return folder / name;
-}
-
 /// Points in metres. Throws where a coordinate is not a finite number.
 std::vector<Vec3<double>> scaled_points(const VtkCells& cells, double metres_per_unit, const std::string& where) {
   std::vector<Vec3<double>> points = cells.points;
@@ -308,15 +257,38 @@ std::string compare_element_ids(const Volume& volume, const VtkCells& file, cons
   return fmt::format("GlobalElementID right for {} of {}", right, n);
 }
 
+/// Point arrays that files besides that of the face bring.
+void add_other_files(const std::string& face, const Volume& volume, const SimVascularOptions& options,
+                     std::vector<mesh::NodeField>& fields) {
+  const auto others = options.other_face_files.find(face);
+  if (others == options.other_face_files.end()) return;
+  for (const OtherFile& other : others->second) {
+    auto file = read_vtk_surface(other.file, {other.array});
+    const auto where = other.file.string();
+    const auto points = scaled_points(file, options.metres_per_unit, where);
+    const auto triangles = cells_of_type<3>(file, vtk_triangle, "triangles", options.metres_per_unit, where);
+    auto allowed = mesh::shortest_edges(points, triangles);
+    for (auto& a : allowed) a *= options.tolerance;
+    const auto found = nodes_of_face(volume, file, points, allowed);
+    if (std::find(found.nodes.begin(), found.nodes.end(), -1) != found.nodes.end())
+      throw InputError(where, fmt::format("has points that the volume with face {} does not have", face),
+                       "write the array on the face of this mesh");
+    file.node_fields.at(0).name = other.name;
+    for (auto& field : fields_of_face(face, file, found.nodes, std::ssize(volume.data.points), where))
+      fields.push_back(std::move(field));
+  }
+}
+
 /// Adds the point arrays of the face to `fields`.
-mesh::FaceData read_face(const fs::path& path, const Volume& volume, const SimVascularOptions& options,
-                         std::vector<mesh::NodeField>& fields, std::vector<std::string>& report) {
-  const auto wanted = options.face_arrays.find(path.stem().string());
+mesh::FaceData read_face(const std::string& name, const fs::path& path, const Volume& volume,
+                         const SimVascularOptions& options, std::vector<mesh::NodeField>& fields,
+                         std::vector<std::string>& report) {
+  const auto wanted = options.face_arrays.find(name);
   const auto file =
       read_vtk_surface(path, wanted == options.face_arrays.end() ? std::vector<std::string>{} : wanted->second);
   const auto where = path.string();
   const auto points = scaled_points(file, options.metres_per_unit, where);
-  mesh::FaceData face{path.stem().string(), 0, {}};
+  mesh::FaceData face{name, 0, {}};
   face.triangles = cells_of_type<3>(file, vtk_triangle, "triangles", options.metres_per_unit, where);
   auto allowed = mesh::shortest_edges(points, face.triangles);
   for (auto& a : allowed) a *= options.tolerance;
@@ -335,27 +307,107 @@ mesh::FaceData read_face(const fs::path& path, const Volume& volume, const SimVa
                      "export faces and volume from the same mesh in the same unit");
   for (auto& field : fields_of_face(face.name, file, found.nodes, std::ssize(volume.data.points), where))
     fields.push_back(std::move(field));
+  add_other_files(name, volume, options, fields);
   report.push_back(fmt::format("face {}: {} triangles; {}; {}", face.name, face.triangles.size(), found.how,
                                compare_element_ids(volume, file, face)));
   return face;
 }
 
+const OtherFile* other_file(const SimVascularOptions& options, const std::string& array) {
+  for (const OtherFile& other : options.other_files)
+    if (other.name == array) return &other;
+  return nullptr;
+}
+
+/// A cell array of another file, whose cells have to lie where those of the volume lie.
+mesh::ElementField other_field(const OtherFile& other, const VtkCells& volume) {
+  auto file = read_vtk_volume(other.file, {other.array});
+  const std::string where = other.file.string();
+  const char* remedy = "write the array for the cells of this mesh, in their order";
+  if (file.types.size() != volume.types.size())
+    throw InputError(where, fmt::format("has {} cells, the volume {}", file.types.size(), volume.types.size()), remedy);
+  const auto centre = [](const VtkCells& cells, std::size_t c) {
+    Vec3<double> sum{{0, 0, 0}};
+    const auto begin = cells.offsets[c], end = cells.offsets[c + 1];
+    for (auto i = begin; i < end; ++i) sum = sum + cells.points[cells.connectivity[i]];
+    return (1.0 / static_cast<double>(std::max<Index>(end - begin, 1))) * sum;
+  };
+  for (std::size_t c = 0; c < file.types.size(); ++c) {
+    const auto here = centre(volume, c);
+    const double size = norm(volume.points[volume.connectivity[volume.offsets[c]]] - here);
+    if (!(norm(centre(file, c) - here) <= 0.01 * size))
+      throw InputError(where, fmt::format("cell {} lies elsewhere than that of the volume", c + 1), remedy);
+  }
+  auto field = std::move(file.fields.at(0));
+  field.name = other.name;
+  return field;
+}
+
+/// The volume with the cell arrays that are wanted, wherever they stand; that of the regions comes last.
+VtkCells read_volume(const MeshFiles& files, mesh::RegionKind kind, const SimVascularOptions& options) {
+  auto wanted = options.fields;
+  if (options.regions) wanted.push_back(options.regions->array);
+  std::vector<std::string> own;
+  for (const auto& array : wanted)
+    if (other_file(options, array) == nullptr) own.push_back(array);
+  auto file = read_vtk_volume(
+      files.volume, own, {},
+      kind == mesh::RegionKind::lumen ? std::vector<std::string>{mesh::lumen_side} : std::vector<std::string>{});
+  std::vector<mesh::ElementField> fields;
+  auto next = file.fields.begin();
+  for (const auto& array : wanted)
+    if (const OtherFile* other = other_file(options, array))
+      fields.push_back(other_field(*other, file));
+    else
+      fields.push_back(std::move(*next++));
+  file.fields = std::move(fields);
+  return file;
+}
+
+/// The boundary that no face holds, as one more face, where there is any.
+void add_rest(const std::string& name, const mesh::Boundary& boundary, std::vector<mesh::FaceData>& faces,
+              std::vector<std::string>& report) {
+  std::vector<char> held(boundary.triangles().size(), 0);
+  for (const auto& face : faces)
+    for (const auto& t : face.triangles)
+      if (const auto found = boundary.find(t); found >= 0) held[found] = 1;
+  mesh::FaceData rest{name, 0, {}};
+  for (std::size_t t = 0; t < held.size(); ++t)
+    if (!held[t]) rest.triangles.push_back(boundary.triangles()[t].nodes);
+  if (rest.triangles.empty()) return;
+  report.push_back(fmt::format("face {}: {} triangles that no other face holds", name, rest.triangles.size()));
+  faces.push_back(std::move(rest));
+}
+
+/// All faces; problems of all of them are thrown together.
+std::vector<mesh::FaceData> read_faces(const MeshFiles& files, const Volume& volume, const SimVascularOptions& options,
+                                       std::vector<mesh::NodeField>& node_fields, std::vector<std::string>& report) {
+  std::vector<Problem> problems;
+  std::vector<mesh::FaceData> faces;
+  std::vector<mesh::PlacedName> names;
+  for (const auto& [face, path] : files.faces) {
+    names.push_back({face, path.string()});
+    try {
+      faces.push_back(read_face(face, path, volume, options, node_fields, report));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  for (auto& problem : mesh::check_names(names, "face")) problems.push_back(std::move(problem));
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (files.rest) add_rest(*files.rest, volume.boundary, faces, report);
+  return faces;
+}
+
 }  // namespace
 
-mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind, const std::string& name,
-                                  const SimVascularOptions& options) {
+mesh::LoadedMesh read_mesh_files(const MeshFiles& files, mesh::RegionKind kind, const std::string& name,
+                                 const SimVascularOptions& options) {
+  const auto where = files.volume.string();
   if (!(options.metres_per_unit > 0 && std::isfinite(options.metres_per_unit)))
-    throw InputError(folder.string(), fmt::format("length unit of {} m, must be positive", options.metres_per_unit),
+    throw InputError(where, fmt::format("length unit of {} m, must be positive", options.metres_per_unit),
                      "declare the length unit of the mesh");
-  const auto surfaces = surface_files(folder);
-  const auto volume_path = volume_file(folder);
-  const auto where = volume_path.string();
-  auto arrays = options.fields;
-  if (options.regions) arrays.push_back(options.regions->array);
-  auto file = read_vtk_volume(
-      volume_path, arrays, {},
-      kind == mesh::RegionKind::lumen ? std::vector<std::string>{mesh::lumen_side} : std::vector<std::string>{});
-
+  auto file = read_volume(files, kind, options);
   mesh::LoadedMesh mesh;
   auto& data = mesh.data;
   data.points = scaled_points(file, options.metres_per_unit, where);
@@ -366,11 +418,9 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
   refuse_unlikely_size(data.points, options.metres_per_unit, where);
   refuse_unused_nodes(data, where);
   mesh.report.push_back(fmt::format("{}: {} nodes, {} tetrahedra, {} faces; GlobalNodeID {}, GlobalElementID {}", where,
-                                    data.points.size(), data.tetrahedra.size(), surfaces.files.size(),
+                                    data.points.size(), data.tetrahedra.size(), files.faces.size(),
                                     file.global_node_ids.empty() ? "absent" : "present",
                                     file.global_element_ids.empty() ? "absent" : "present"));
-  for (const auto& path : surfaces.ignored)
-    mesh.report.push_back(fmt::format("{}: hidden file, ignored", path.string()));
   if (auto turned = mesh::orient_elements(data, where); !turned.empty()) mesh.report.push_back(std::move(turned));
   if (options.regions) {
     sort_by_region(data, file, *options.regions, kind, where);
@@ -382,29 +432,12 @@ mesh::LoadedMesh read_simvascular(const fs::path& folder, mesh::RegionKind kind,
 
   const mesh::Boundary boundary(data.tetrahedra, std::ssize(data.points), where);
   const auto volume = make_volume(data, boundary, file);
-  std::vector<Problem> problems;
-  std::vector<mesh::FaceData> faces;
   std::vector<mesh::NodeField> node_fields = std::move(file.node_fields);
-  for (const auto& path : surfaces.files) try {
-      faces.push_back(read_face(path, volume, options, node_fields, mesh.report));
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  std::vector<mesh::PlacedName> names;
-  for (const auto& path : surfaces.files) names.push_back({path.stem().string(), path.string()});
-  for (auto& problem : mesh::check_names(names, "face")) problems.push_back(std::move(problem));
-  if (!problems.empty()) throw InputError(std::move(problems));
+  auto faces = read_faces(files, volume, options, node_fields, mesh.report);
   data.faces = std::move(faces);
   data.node_fields = std::move(node_fields);
-  mesh::orient_and_check_faces(data, boundary, folder.string());
+  mesh::orient_and_check_faces(data, boundary, where);
   return mesh;
-}
-
-std::vector<fs::path> simvascular_files(const fs::path& folder) {
-  std::error_code none;
-  auto files = find_surface_files(folder, none).files;
-  if (const auto volume = volume_file(folder); fs::is_regular_file(volume, none)) files.insert(files.begin(), volume);
-  return files;
 }
 
 }  // namespace tunica::mesh_io

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tunica/mesh/loaded_mesh.hpp"
@@ -17,12 +18,28 @@ struct NamedRegions {
   std::map<int, std::string> names;  ///< every number that occurs, and its region
 };
 
+/// A cell or point array that stands in a file of its own, as SimVascular keeps fibres, domains and supports.
+struct OtherFile {
+  std::string name;            ///< that it gets
+  std::filesystem::path file;  ///< with the cells of the volume in the same order; or a surface with the face's points
+  std::string array;           ///< its name there
+};
+
 struct SimVascularOptions {
   double metres_per_unit = 0;  ///< length unit of the files, for example 0.01 for cm; > 0
   double tolerance = 1e-3;     ///< for the coordinates of face nodes, as a share of the shortest edge at the node
   std::optional<NamedRegions> regions{};                          ///< else the volume is one region
   std::vector<std::string> fields{};                              ///< cell arrays that are kept with the elements
   std::map<std::string, std::vector<std::string>> face_arrays{};  ///< point arrays of faces that are kept, by face
+  std::vector<OtherFile> other_files{};  ///< where arrays of `fields` and `regions` stand, if not in the volume
+  std::map<std::string, std::vector<OtherFile>> other_face_files{};  ///< point arrays of faces that are kept, likewise
+};
+
+/// Volume and faces wherever they lie.
+struct MeshFiles {
+  std::filesystem::path volume;
+  std::vector<std::pair<std::string, std::filesystem::path>> faces;  ///< name, file
+  std::optional<std::string> rest{};  ///< face of the boundary that no file holds; when all is held, there is none
 };
 
 /// Reads a `mesh-complete` folder: `mesh-complete.mesh.vtu` and one named face for each `mesh-surfaces/*.vtp` (other
@@ -41,6 +58,10 @@ struct SimVascularOptions {
 /// cell or point arrays that are absent or not finite, region numbers without a name and names without an element.
 mesh::LoadedMesh read_simvascular(const std::filesystem::path& folder, mesh::RegionKind kind, const std::string& name,
                                   const SimVascularOptions& options);
+
+/// The same for files with names and places of their own.
+mesh::LoadedMesh read_mesh_files(const MeshFiles& files, mesh::RegionKind kind, const std::string& name,
+                                 const SimVascularOptions& options);
 
 /// Writes the regions of one kind as a `mesh-complete` folder that read_simvascular reads back: the volume with
 /// GlobalNodeID, GlobalElementID, the cell array `region` (1, 2, ... in the order of `data.regions`) and `data.fields`,

@@ -131,6 +131,27 @@ TEST(Waveform, FourierOfATriangleHasTheKnownCoefficients) {
   for (double t : {0.0, 0.2, 0.6}) EXPECT_NEAR(series.value(t), 8 / (pi * pi) * std::cos(2 * pi * t), 1e-14);
 }
 
+TEST(Waveform, RampHoldsItsEnds) {
+  const auto ramp = Waveform::table({{1, 2, 3}, {10, 99, 30}}, {.interpolation = Interpolation::ramp});
+  EXPECT_DOUBLE_EQ(ramp.value(0), 10);
+  EXPECT_DOUBLE_EQ(ramp.value(2), 20);
+  EXPECT_DOUBLE_EQ(ramp.value(3), 30);
+  EXPECT_DOUBLE_EQ(ramp.value(100), 30);
+  EXPECT_FALSE(ramp.period());
+}
+
+// The straight line is exact, and the series is that of what is left.
+TEST(Waveform, FourierWithTrendNeedNotClose) {
+  Table table = sampled(512, 2.0, wave);
+  const auto closed = Waveform::table(table, {.interpolation = Interpolation::fourier, .modes = 4});
+  for (std::size_t i = 0; i < table.times.size(); ++i) table.values[i] += 5 * table.times[i];
+  EXPECT_THROW(Waveform::table(table, {.interpolation = Interpolation::fourier, .modes = 4}), InputError);
+  const auto drifting = Waveform::table(table, {.interpolation = Interpolation::fourier, .modes = 4, .trend = true});
+  for (const double t : {0.1, 0.7, 1.9}) EXPECT_NEAR(drifting.value(t), closed.value(t) + 5 * t, 1e-12);
+  EXPECT_NEAR(drifting.value(2.7), drifting.value(0.7), 1e-12);
+  EXPECT_NEAR(drifting.mean(), closed.mean() + 5, 1e-12);
+}
+
 TEST(Waveform, PeriodicInBothDirectionsAndMeanOfEachInterpolation) {
   const auto table = sampled(50, 0.8, wave);
   for (const auto kind : {Interpolation::linear, Interpolation::spline, Interpolation::fourier}) {
@@ -249,6 +270,19 @@ TEST(WaveformFile, SimVascular) {
 // --- real files -------------------------------------------------------------------------------------------------
 
 fs::path shared(const char* name) { return fs::path(TUNICA_SHARED_DATA) / name; }
+
+TEST(WaveformFile, FourierCoefficients) {
+  const Temporary file("series.fcs", "1.0 2.0\n3.0 0.5\n2\n-1.0 0\n0.25 -0.75\n");
+  const TableSource source{{.path = file.path, .value_unit = 10}, {}};
+  const Waveform waveform = make_waveform({.source = source});
+  const double h = 0.3, angle = pi * h;
+  EXPECT_NEAR(waveform.value(1 + h), 10 * (3 + 0.5 * h - 1 + 0.25 * std::cos(angle) + 0.75 * std::sin(angle)), 1e-12);
+  EXPECT_NEAR(*waveform.period(), 2, 1e-15);
+  EXPECT_NEAR(waveform.mean(), 10 * (3 + 0.5 - 1), 1e-12);
+  EXPECT_EQ(read_table(source.file).times.size(), 16u);
+  const Temporary wrong("wrong.fcs", "0 1\n0 0\n3\n1 0\n");
+  EXPECT_THROW(make_waveform({.source = TableSource{{.path = wrong.path}, {}}}), InputError);
+}
 
 TEST(WaveformFile, RealSimVascularInflow) {
   const auto path = shared("pipe_fluid/lumen_inlet.flow");

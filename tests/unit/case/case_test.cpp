@@ -117,6 +117,11 @@ TEST(Case, MeshesComeFromExactlyOneSource) {
       problems_of(rest + "meshes: {length_unit: cm, lumen: {simvascular: a}, tube: {radius: 1 mm, length: 1 mm}}"),
       "meshes", "more than one source"));
   EXPECT_TRUE(mentions(problems_of(rest + "meshes: {lumen: {simvascular: a}}"), "meshes", "`length_unit` is missing"));
+  EXPECT_TRUE(mentions(problems_of(rest + "meshes: {length_unit: cm, lumen: {simvascular: a, volume: b.vtu}}"),
+                       "meshes.lumen", "both given"));
+  EXPECT_TRUE(mentions(problems_of(rest + "meshes: {length_unit: cm, lumen: {volume: b.vtu}}"), "meshes.lumen.faces",
+                       "is missing"));
+  EXPECT_TRUE(mentions(problems_of(rest + "meshes: {length_unit: cm, lumen: {}}"), "meshes.lumen", "no mesh is given"));
   EXPECT_TRUE(mentions(problems_of(rest + "meshes: {length_unit: kg, lumen: {simvascular: a}}"), "meshes.length_unit",
                        "unit of a mass"));
   EXPECT_TRUE(mentions(problems_of(rest + "meshes: {length_unit: m, tube: {radius: 1 mm, length: 1 mm}}"),

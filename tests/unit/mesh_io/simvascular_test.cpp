@@ -181,6 +181,67 @@ TEST(SimVascular, FallsBackToCoordinatesWhenIdsAreWrongOrAbsent) {
   expect_same_as_block(read_with({.node_id_shift = 100000}));
 }
 
+TEST(MeshFiles, HaveNamesOfTheirOwnAndARest) {
+  const TemporaryFolder folder;
+  write(folder.path(), block(), {});
+  MeshFiles files{folder.path() / "mesh-complete.mesh.vtu", {}, {}};
+  for (const char* face : {"x_max", "y_min"})
+    files.faces.emplace_back("my_" + std::string(face), folder.path() / "mesh-surfaces" / (std::string(face) + ".vtp"));
+  const auto read = [&] {
+    return read_mesh_files(files, mesh::RegionKind::lumen, "blood", {.metres_per_unit = 0.01}).data;
+  };
+  EXPECT_TRUE(contains(message_of<InputError>(read), "boundary triangles lie in no named face"));
+  files.rest = "rest";
+  const auto data = read();
+  ASSERT_EQ(data.faces.size(), 3u);
+  EXPECT_EQ(mesh::testing::face(data, "my_x_max").triangles.size(), 8u);
+  EXPECT_EQ(mesh::testing::face(data, "rest").triangles.size(), 64u - 8u - 12u);
+}
+
+TEST(MeshFiles, TakeArraysFromOtherFiles) {
+  auto data = mesh::box(3, 2, 2, {{0.03, 0.02, 0.02}}, mesh::RegionKind::wall);
+  const TemporaryFolder folder;
+  write_simvascular(folder.path() / "plain", data, mesh::RegionKind::wall, 0.01);
+  mesh::ElementField fibres{"FIB_DIR", 3, {}}, domains{"DOMAIN_ID", 1, {}};
+  for (std::size_t e = 0; e < data.tetrahedra.size(); ++e) {
+    fibres.values.insert(fibres.values.end(), {1.0 * static_cast<double>(e), 2, 3});
+    domains.values.push_back(e < 30 ? 1 : 2);
+  }
+  data.fields = {fibres, domains};
+  write_simvascular(folder.path() / "other", data, mesh::RegionKind::wall, 0.01);
+  const auto other = folder.path() / "other/mesh-complete.mesh.vtu";
+  SimVascularOptions options{.metres_per_unit = 0.01, .fields = {"fibre_1"}};
+  options.regions = NamedRegions{"region_id", {{1, "one"}, {2, "two"}}};
+  options.other_files = {{"fibre_1", other, "FIB_DIR"}, {"region_id", other, "DOMAIN_ID"}};
+  const auto read = read_simvascular(folder.path() / "plain", mesh::RegionKind::wall, "wall", options).data;
+  ASSERT_EQ(read.regions.size(), 2u);
+  EXPECT_EQ(read.regions[1].first_element, 30);
+  ASSERT_EQ(read.fields.size(), 1u);
+  EXPECT_EQ(read.fields[0].name, "fibre_1");
+  EXPECT_EQ(read.fields[0].values, fibres.values);
+
+  const auto small = mesh::box(2, 2, 2, {{0.03, 0.02, 0.02}}, mesh::RegionKind::wall);
+  write_simvascular(folder.path() / "small", small, mesh::RegionKind::wall, 0.01);
+  EXPECT_TRUE(contains(message_of<InputError>(
+                           [&] { read_simvascular(folder.path() / "small", mesh::RegionKind::wall, "wall", options); }),
+                       "has 72 cells, the volume 48"));
+}
+
+TEST(MeshFiles, TakeFaceArraysFromOtherFiles) {
+  const TemporaryFolder folder;
+  write(folder.path(), block(), {});
+  const auto surface = folder.path() / "mesh-surfaces/x_max.vtp", other = folder.path() / "support.vtp";
+  auto text = test::slurp(surface);
+  text.insert(text.find("<PointData>") + 11, array("Float64", "Stiffness", 1, std::vector<double>(9, 7.5)));
+  std::ofstream(other) << text;
+  SimVascularOptions options{.metres_per_unit = 0.01};
+  options.other_face_files["x_max"] = {{"k", other, "Stiffness"}};
+  const auto read = read_simvascular(folder.path(), mesh::RegionKind::wall, "wall", options).data;
+  ASSERT_EQ(read.node_fields.size(), 1u);
+  EXPECT_EQ(read.node_fields[0].name, mesh::face_array_name("x_max", "k"));
+  EXPECT_EQ(std::count(read.node_fields[0].values.begin(), read.node_fields[0].values.end(), 7.5), 9);
+}
+
 TEST(SimVascular, TurnsTrianglesOutwardAndElementsPositive) {
   expect_same_as_block(read_with({.turned_triangles = true}));
   const auto turned = read_with({.turned_elements = true});

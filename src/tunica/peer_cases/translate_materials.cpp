@@ -1,0 +1,444 @@
+// fluid and wall: densities, viscosity laws, wall laws.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/text.hpp"
+#include "tunica/peer_cases/problem.hpp"
+#include "tunica/peer_cases/values.hpp"
+
+namespace tunica::peer_cases {
+
+namespace {
+
+/// Adds a key of the case with the number of a key of the peer; an error where that is not there.
+void add_required(Context& context, const Entry& section, const char* key, const char* unit, CaseKey& to,
+                  const char* name) {
+  if (const Entry* entry = section.find(key))
+    to.add(name, context.quantity(*entry, unit), entry->where());
+  else
+    context.refuse(section, fmt::format("has no {}", key), "write it: the law needs it");
+}
+
+// --- blood --------------------------------------------------------------------------------------------------------
+
+void translate_casson(Context& context, const Entry& viscosity, CaseKey& law) {
+  const auto square_root = [&](const char* key, const char* name, const char* unit) {
+    const auto root = context.number(viscosity, key);
+    if (!root) return context.refuse(viscosity, fmt::format("has no {}", key), "write it: the law needs it");
+    law.add(name, with_unit(*root * *root, unit),
+            fmt::format("{} {}, a square root", viscosity.find(key)->where(), number_text(*root)));
+  };
+  square_root("Asymptotic_viscosity_parameter", "viscosity_at_high_shear", context.units.viscosity);
+  square_root("Yield_stress_parameter", "yield_stress", context.units.pressure);
+  const double threshold = context.number(viscosity, "Low_shear_rate_threshold").value_or(0.5);
+  law.add("regularising_shear_rate", with_unit(threshold, "1/s"),
+          context.source(viscosity, "Low_shear_rate_threshold", fmt::format("the default of {}", context.peer())));
+  if (viscosity.find("Low_shear_rate_threshold") == nullptr)
+    context.defaulted(viscosity, "Low_shear_rate_threshold", fmt::format("0.5 1/s, the default of {}", context.peer()));
+  context.changed(viscosity,
+                  "below Low_shear_rate_threshold g0 the viscosity does not stay what it is at g0, the shear rate g "
+                  "becomes sqrt(g^2 + g0^2)");
+}
+
+void translate_viscosity(Context& context, const Entry& properties, CaseKey& fluid) {
+  const Entry* viscosity = properties.find("Viscosity");
+  if (viscosity == nullptr)
+    return context.refuse(properties, fmt::format("has no Viscosity; {} would compute without any", context.peer()),
+                          "write it");
+  const std::string model = text::lower(viscosity->label);
+  auto& section = fluid.section("viscosity", viscosity->where() + " " + viscosity->label);
+  const char* unit = context.units.viscosity;
+  if (model == "const" || model == "constant" || model == "newtonian") {
+    add_required(context, *viscosity, "Value", unit, section.section("newtonian", ""), "viscosity");
+  } else if (model == "cy" || model == "carreau-yasuda") {
+    auto& law = section.section("carreau_yasuda", "");
+    add_required(context, *viscosity, "Limiting_high_shear_rate_viscosity", unit, law, "viscosity_at_high_shear");
+    add_required(context, *viscosity, "Limiting_low_shear_rate_viscosity", unit, law, "viscosity_at_rest");
+    add_required(context, *viscosity, "Shear_rate_tensor_multiplier", "s", law, "relaxation_time");
+    add_required(context, *viscosity, "Shear_rate_tensor_exponent", "", law, "transition");
+    add_required(context, *viscosity, "Power_law_index", "", law, "exponent");
+  } else if (model == "cass" || model == "cassons") {
+    translate_casson(context, *viscosity, section.section("casson", ""));
+  } else {
+    context.refuse(
+        *viscosity,
+        fmt::format("is of the model `{}`, which {} does not have", text::printable(viscosity->label), context.peer()),
+        "write Constant, Carreau-Yasuda or Cassons");
+  }
+}
+
+// --- wall ---------------------------------------------------------------------------------------------------------
+
+enum class LawKind { neo_hooke, st_venant_kirchhoff, mooney_rivlin, hgo, guccione };
+
+struct LawName {
+  const char* name;
+  std::optional<LawKind> law;
+  const char* physics;  ///< of one that tunica does not have
+};
+
+constexpr const char *holzapfel_ogden = "the law of Holzapfel and Ogden for heart muscle",
+                     *modified_stvk = "the modified law of St. Venant and Kirchhoff",
+                     *full_invariants = "HGO with fibres that follow the strain as it is (HGO-ma)",
+                     *network = "a law as a neural network";
+
+const LawName law_names[] = {
+    {"nHK", LawKind::neo_hooke, ""},
+    {"nHK91", LawKind::neo_hooke, ""},
+    {"neoHookean", LawKind::neo_hooke, ""},
+    {"neoHookeanSimo91", LawKind::neo_hooke, ""},
+    {"stVK", LawKind::st_venant_kirchhoff, ""},
+    {"stVenantKirchhoff", LawKind::st_venant_kirchhoff, ""},
+    {"MR", LawKind::mooney_rivlin, ""},
+    {"Mooney-Rivlin", LawKind::mooney_rivlin, ""},
+    {"HGO", LawKind::hgo, ""},
+    {"HGO-d", LawKind::hgo, ""},
+    {"HGO-decoupled", LawKind::hgo, ""},
+    {"Guccione", LawKind::guccione, ""},
+    {"Gucci", LawKind::guccione, ""},
+    {"HGO-ma", {}, full_invariants},
+    {"HGO-modified", {}, full_invariants},
+    {"lin", {}, "a stress in proportion to nothing but the shear modulus"},
+    {"linear", {}, "a stress in proportion to nothing but the shear modulus"},
+    {"m-stVK", {}, modified_stvk},
+    {"modified-stVK", {}, modified_stvk},
+    {"modified-stVenantKirchhoff", {}, modified_stvk},
+    {"HO", {}, holzapfel_ogden},
+    {"Holzapfel", {}, holzapfel_ogden},
+    {"HO-d", {}, holzapfel_ogden},
+    {"HO-decoupled", {}, holzapfel_ogden},
+    {"HolzapfelOgden", {}, holzapfel_ogden},
+    {"HO_ma", {}, holzapfel_ogden},
+    {"HO-ma", {}, holzapfel_ogden},
+    {"HO-modified", {}, holzapfel_ogden},
+    {"HolzapfelOgden-ModifiedAnisotropy", {}, holzapfel_ogden},
+    {"LS", {}, "the law of Lee and Sacks"},
+    {"Lee-Sacks", {}, "the law of Lee and Sacks"},
+    {"CANN", {}, network},
+    {"AnisoHyper", {}, network},
+};
+
+/// Elastic constants of a domain.
+struct Constants {
+  const Entry *modulus, *poisson, *penalty;
+  double E = 0.0, nu = 0.0;
+  bool incompressible() const { return std::abs(nu - 0.5) < 1e-12; }
+};
+
+std::optional<Constants> constants_of(Context& context, const DomainPart& part) {
+  const Entry& properties = *part.properties;
+  Constants constants{properties.find("Elasticity_modulus"), properties.find("Poisson_ratio"),
+                      properties.find("Penalty_parameter")};
+  if (constants.modulus == nullptr) {
+    context.refuse(properties,
+                   fmt::format("has no Elasticity_modulus; {} would take 1e7 in whatever unit", context.peer()),
+                   "write it");
+    return std::nullopt;
+  }
+  constants.E = context.number(properties, "Elasticity_modulus").value_or(0);
+  constants.nu = context.number(properties, "Poisson_ratio").value_or(0.3);
+  if (constants.poisson == nullptr)
+    context.defaulted(properties, "Poisson_ratio", fmt::format("0.3, the default of {}", context.peer()));
+  if (constants.incompressible() && constants.penalty == nullptr && part.equation == Equation::structure) {
+    context.refuse(properties, "is incompressible, which struct cannot be",
+                   "give a Penalty_parameter, a Poisson_ratio below 0.5, or the equation ustruct");
+    return std::nullopt;
+  }
+  return constants;
+}
+
+/// Resistance to a change of volume, of a law whose other constants are not E and nu.
+void add_compressibility(Context& context, const Constants& c, CaseKey& law) {
+  if (c.penalty != nullptr)
+    law.add("bulk_modulus", context.quantity(*c.penalty, context.units.pressure), c.penalty->where());
+  else if (c.incompressible())
+    law.add("poisson_ratio", "0.5", c.poisson->where());
+  else
+    law.add("bulk_modulus", with_unit(c.E / (3 * (1 - 2 * c.nu)), context.units.pressure),
+            fmt::format("E / (3 (1 - 2 nu)) of {} and nu = {}", c.modulus->where(), number_text(c.nu)));
+}
+
+/// Shear modulus and resistance to a change of volume.
+void add_constants(Context& context, const Constants& c, CaseKey& law) {
+  if (c.penalty == nullptr) {
+    law.add("young_modulus", context.quantity(*c.modulus, context.units.pressure), c.modulus->where());
+    law.add("poisson_ratio", number_text(c.nu),
+            c.poisson != nullptr ? c.poisson->where() : fmt::format("the default of {}", context.peer()));
+    return;
+  }
+  law.add("shear_modulus", with_unit(c.E / (2 * (1 + c.nu)), context.units.pressure),
+          fmt::format("E / (2 (1 + nu)) of {} and nu = {}", c.modulus->where(), number_text(c.nu)));
+  add_compressibility(context, c, law);
+}
+
+/// The angle of the second family of fibres from the first, which is the direction e1 of the frame; none where it is
+/// not known, which is reported.
+std::optional<double> angle_of_families(Context& context, const PosedProblem& problem, const Entry& law) {
+  const auto directions = problem.wall->all("Fiber_direction");
+  if (directions.size() == 2) {
+    const auto f = read_vector(directions[0]->value, context.file.dialect).values;
+    const auto s = read_vector(directions[1]->value, context.file.dialect).values;
+    if (f.size() != 3 || s.size() != 3) return std::nullopt;
+    double fs = 0, ff = 0, ss = 0;
+    for (int i = 0; i < 3; ++i) {
+      fs += f[i] * s[i];
+      ff += f[i] * f[i];
+      ss += s[i] * s[i];
+    }
+    return std::acos(std::clamp(fs / std::sqrt(ff * ss), -1.0, 1.0));
+  }
+  if (problem.wall->all("Fiber_direction_file_path").size() == 2)
+    context.missing(law, "two families of fibres whose angle differs from element to element",
+                    "give the directions by Fiber_direction, or write the case file with a frame of its own");
+  return std::nullopt;
+}
+
+void translate_hgo(Context& context, const PosedProblem& problem, const Entry& law, const Constants& c,
+                   CaseKey& material) {
+  const auto angle = angle_of_families(context, problem, law);
+  auto& section = material.section("goh", law.where() + " " + law.label);
+  add_constants(context, c, section);
+  section.add("exclusion", "none", fmt::format("{} counts fibres under compression", context.peer()));
+  section.add("fibre_energy", "isochoric", fmt::format("as in {}", context.peer()));
+  auto& families = section.section("families", "");
+  constexpr const char* keys[2][2] = {{"a4", "b4"}, {"a6", "b6"}};
+  for (int f = 0; f < 2; ++f) {
+    auto& family = families.section("", fmt::format("family {}: k1 = {}, k2 = {}", f + 1, keys[f][0], keys[f][1]));
+    family.add("mean_angle", with_unit(f == 0 ? 0.0 : angle.value_or(0.0), "rad"),
+               f == 0 ? "along the first fibre direction" : "of the second fibre direction from the first");
+    add_required(context, law, "kappa", "", family, "kappa");
+    add_required(context, law, keys[f][0], context.units.pressure, family, "k1");
+    add_required(context, law, keys[f][1], "", family, "k2");
+  }
+}
+
+void translate_guccione(Context& context, const Entry& law, const Constants& c, CaseKey& material) {
+  auto& section = material.section("fung", law.where() + " " + law.label + ", with f = c, s = l, n = r");
+  add_required(context, law, "c", context.units.pressure, section, "c");
+  add_required(context, law, "bf", "", section, "b_cc");
+  add_required(context, law, "bt", "", section, "b_ll");
+  add_required(context, law, "bt", "", section, "b_rr");
+  for (const char* none : {"b_cl", "b_lr", "b_rc"}) section.add(none, "0", "has no such term");
+  constexpr std::pair<const char*, const char*> shears[] = {{"bfs", "g_cl"}, {"bt", "g_lr"}, {"bfs", "g_rc"}};
+  for (const auto& [theirs, ours] : shears)
+    if (const auto value = context.number(law, theirs))
+      section.add(ours, number_text(2 * *value), fmt::format("twice {}", law.find(theirs)->where()));
+    else
+      context.refuse(law, fmt::format("has no {}", theirs), "write it: the law needs it");
+  add_compressibility(context, c, section);
+}
+
+bool needs_fibres(LawKind kind) { return kind == LawKind::hgo || kind == LawKind::guccione; }
+
+std::optional<LawKind> kind_of(Context& context, const Entry& properties) {
+  const Entry* law = properties.find("Constitutive_model");
+  if (law == nullptr) {
+    context.defaulted(properties, "Constitutive_model", fmt::format("neo-Hooke, the default of {}", context.peer()));
+    return LawKind::neo_hooke;
+  }
+  for (const LawName& known : law_names) {
+    if (law->label != known.name) continue;
+    if (!known.law) context.missing(*law, fmt::format("{} ({})", known.physics, known.name), "choose another law");
+    return known.law;
+  }
+  context.refuse(
+      *law, fmt::format("is of the type `{}`, which {} does not have", text::printable(law->label), context.peer()),
+      "write neoHookean, stVK, Mooney-Rivlin, HGO or Guccione");
+  return std::nullopt;
+}
+
+void translate_law(Context& context, const PosedProblem& problem, const DomainPart& part, CaseKey& to) {
+  const auto kind = kind_of(context, *part.properties);
+  const auto constants = constants_of(context, part);
+  if (!kind || !constants) return;
+  const Entry* law = part.properties->find("Constitutive_model");
+  auto& material = to.section("material", part.properties->where());
+  const std::string source =
+      law == nullptr ? fmt::format("the default of {}", context.peer()) : law->where() + " " + law->label;
+  if (*kind == LawKind::neo_hooke) {
+    add_constants(context, *constants, material.section("neo_hooke", source));
+  } else if (*kind == LawKind::st_venant_kirchhoff) {
+    add_constants(context, *constants, material.section("st_venant_kirchhoff", source));
+    context.changed(*law, fmt::format("a change of volume costs U(J) of Dilational_penalty_model in the place of "
+                                      "lambda/2 (tr E)^2 and what {} adds to it; both agree for small strains",
+                                      context.peer()));
+  } else if (*kind == LawKind::mooney_rivlin) {
+    auto& section = material.section("mooney_rivlin", source);
+    add_required(context, *law, "c1", context.units.pressure, section, "c1");
+    add_required(context, *law, "c2", context.units.pressure, section, "c2");
+    add_compressibility(context, *constants, section);
+  } else if (*kind == LawKind::hgo) {
+    translate_hgo(context, problem, *law, *constants, material);
+  } else {
+    translate_guccione(context, *law, *constants, material);
+  }
+}
+
+void translate_volumetric(Context& context, const PosedProblem& problem, CaseKey& wall) {
+  constexpr std::pair<const char*, const char*> names[] = {{"quad", "quadratic"},      {"Quad", "quadratic"},
+                                                           {"quadratic", "quadratic"}, {"Quadratic", "quadratic"},
+                                                           {"ST91", "simo_taylor"},    {"Simo-Taylor91", "simo_taylor"},
+                                                           {"M94", "miehe"},           {"Miehe94", "miehe"}};
+  std::string first;
+  for (const DomainPart& part : problem.walls) {
+    const Entry* entry = part.properties->find("Dilational_penalty_model");
+    std::string ours = "simo_taylor";
+    if (entry != nullptr) {
+      const auto known = std::find_if(std::begin(names), std::end(names),
+                                      [&](const auto& name) { return entry->value == name.first; });
+      if (known == std::end(names))
+        return context.refuse(
+            *entry, fmt::format("is `{}`, which {} does not have", text::printable(entry->value), context.peer()),
+            "write quad, ST91 or M94");
+      ours = known->second;
+    } else {
+      context.defaulted(*part.properties, "Dilational_penalty_model",
+                        fmt::format("ST91, the default of {}", context.peer()));
+    }
+    if (first.empty()) {
+      first = ours;
+      wall.add("volumetric_energy", ours,
+               entry != nullptr ? entry->where() : fmt::format("ST91, the default of {}", context.peer()));
+    } else if (ours != first) {
+      context.missing(*part.properties, "regions with volumetric energies of their own",
+                      "give all Domains the same Dilational_penalty_model");
+    }
+  }
+}
+
+std::string vector_text(const std::vector<double>& v) {
+  return fmt::format("[{}, {}, {}]", number_text(v[0]), number_text(v[1]), number_text(v[2]));
+}
+
+/// Any direction across `v`.
+std::vector<double> across(const std::vector<double>& v) {
+  const auto least = std::min_element(v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  std::vector<double> result(3, 0.0);
+  result[least - v.begin()] = 1.0;
+  return result;
+}
+
+void translate_constant_frame(Context& context, const std::vector<const Entry*>& directions, bool guccione,
+                              CaseKey& wall) {
+  const auto f = read_vector(directions[0]->value, context.file.dialect).values;
+  auto s = read_vector(directions[1]->value, context.file.dialect).values;
+  if (f.size() != 3 || s.size() != 3)
+    return context.refuse(*directions[0], "and the next one have not three components each", "write (x, y, z)");
+  double fs = 0, ff = 0, ss = 0;
+  for (int i = 0; i < 3; ++i) {
+    fs += f[i] * s[i];
+    ff += f[i] * f[i];
+    ss += s[i] * s[i];
+  }
+  const double cosine = fs / std::sqrt(ff * ss);
+  if (!(ff > 0 && ss > 0)) return context.refuse(*directions[0], "or the next one is zero", "write directions");
+  if (guccione && std::abs(cosine) > 1e-6)
+    return context.missing(*directions[1], "fibres and sheets that are not at right angles", "correct the directions");
+  if (std::abs(cosine) > 1 - 1e-12) s = across(f);
+  auto& frame = wall.section("fibre_frame", "").section("constant", "");
+  frame.add("e1", vector_text(f), directions[0]->where());
+  frame.add("e2", vector_text(s), directions[1]->where() + ", its part along e1 is taken off");
+}
+
+void translate_frame(Context& context, const PosedProblem& problem, bool guccione, CaseKey& wall) {
+  if (problem.wall == nullptr) return;
+  const auto directions = problem.wall->all("Fiber_direction"), files = problem.wall->all("Fiber_direction_file_path");
+  if (directions.size() + files.size() != 2 || (directions.size() == 1))
+    return context.refuse(*problem.wall,
+                          fmt::format("has {} fibre directions, the law needs two", directions.size() + files.size()),
+                          "give two Fiber_direction or two Fiber_direction_file_path");
+  if (!directions.empty()) return translate_constant_frame(context, directions, guccione, wall);
+  auto& frame = wall.section("fibre_frame", "").section("mesh", "");
+  frame.add("e1", "fibre_1", files[0]->where());
+  frame.add("e2", "fibre_2", files[1]->where() + ", its part along e1 is taken off");
+}
+
+void refuse_wall_viscosity(Context& context, const DomainPart& part) {
+  const Entry* viscosity = part.properties->find("Viscosity");
+  if (viscosity != nullptr && context.number(*viscosity, "Value").value_or(0) != 0)
+    context.missing(*viscosity, fmt::format("viscosity of the wall ({})", viscosity->label), "remove the section");
+}
+
+void translate_density(Context& context, const PosedProblem& problem, const DomainPart& part, CaseKey& to) {
+  const Entry* density = part.properties->find("Density");
+  if (density == nullptr)
+    return context.refuse(*part.properties, fmt::format("has no Density; {} would take 0.5", context.peer()),
+                          "write the density of the wall");
+  // Without mass the wall is computed in equilibrium, in which the density has no meaning.
+  if (context.number(*part.properties, "Density") != 0.0)
+    to.add("density", context.quantity(*density, context.units.density), density->where());
+  else if (!massless(context, problem))
+    context.missing(*density, "a wall without mass that moves with blood, or with parts that have mass",
+                    "write the density of the wall");
+  else
+    to.add("density", "1000 kg/m^3", density->where() + " 0: no inertia, see `analysis`");
+}
+
+}  // namespace
+
+void translate_fluid(Context& context, const PosedProblem& problem, CaseKey& top) {
+  if (!problem.blood) return;
+  const Entry& properties = *problem.blood->properties;
+  auto& fluid = top.section("fluid", properties.where());
+  if (const Entry* density = properties.find("Density")) {
+    fluid.add("density", context.quantity(*density, context.units.density), density->where());
+    check_blood_density(context.units, context.number(properties, "Density").value_or(0), density->where(),
+                        context.problems);
+  } else {
+    context.defaulted(properties, "Density",
+                      fmt::format("1060 kg/m^3, the default of tunica; {} would take 0.5", context.peer()));
+  }
+  translate_viscosity(context, properties, fluid);
+  if (const Entry* backflow = properties.find("Backflow_stabilization_coefficient"))
+    fluid.add("backflow_stabilisation", context.quantity(*backflow, ""), backflow->where());
+  else
+    context.defaulted(properties, "Backflow_stabilization_coefficient", "0.2, the default of both");
+}
+
+void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top) {
+  if (problem.walls.empty()) return;
+  const DomainPart& first = problem.walls[0];
+  auto& wall = top.section("wall", first.properties->where());
+  const bool mixed = first.equation == Equation::mixed_structure;
+  wall.add(
+      "element", mixed ? "mixed" : "displacement",
+      fmt::format("{}: {}", problem.coupled() ? context.source(*first.properties, "Equation") : problem.main->where(),
+                  mixed ? "ustruct" : "struct"));
+  translate_density(context, problem, first, wall);
+  bool fibres = false, guccione = false;
+  for (const DomainPart& part : problem.walls) {
+    const Entry* law = part.properties->find("Constitutive_model");
+    for (const LawName& known : law_names)
+      if (law != nullptr && known.law && law->label == known.name) {
+        fibres |= needs_fibres(*known.law);
+        guccione |= *known.law == LawKind::guccione;
+      }
+    refuse_wall_viscosity(context, part);
+    for (const char* key : {"Momentum_stabilization_coefficient", "Continuity_stabilization_coefficient"})
+      if (context.number(*part.properties, key).value_or(0) != 0)
+        context.changed(*part.properties->find(key), "tunica's mixed element has a stabilisation of its own");
+  }
+  translate_law(context, problem, first, wall);
+  translate_volumetric(context, problem, wall);
+  if (problem.walls.size() > 1) {
+    auto& regions = wall.section("regions", "");
+    for (std::size_t i = 0; i < problem.walls.size(); ++i) {
+      const DomainPart& part = problem.walls[i];
+      auto& region = regions.section(fmt::format("domain_{}", part.id.value_or(0)), part.properties->where());
+      translate_density(context, problem, part, region);
+      translate_law(context, problem, part, region);
+    }
+    wall.add("smoothing_length", with_unit(0.0, context.units.length),
+             fmt::format("materials jump, as in {}", context.peer()));
+  }
+  if (fibres)
+    translate_frame(context, problem, guccione, wall);
+  else if (problem.wall != nullptr)
+    for (const char* key : {"Fiber_direction", "Fiber_direction_file_path"})
+      for (const Entry* entry : problem.wall->all(key))
+        context.remarks.dropped.push_back(entry->where() + ": no law of the wall has fibres");
+}
+
+}  // namespace tunica::peer_cases

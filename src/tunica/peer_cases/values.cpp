@@ -1,0 +1,75 @@
+#include "tunica/peer_cases/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "tunica/base/text.hpp"
+
+namespace tunica::peer_cases {
+
+namespace {
+
+std::optional<double> plain_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+bool has_fortran_exponent(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789+-.dD") == std::string_view::npos &&
+         text.find_first_of("dD") != std::string_view::npos;
+}
+
+}  // namespace
+
+ReadNumber read_number(std::string_view text, Dialect dialect) {
+  if (const auto value = plain_number(text)) return {*value};
+  std::string other(text);
+  if (has_fortran_exponent(text)) {
+    other[other.find_first_of("dD")] = 'e';
+    const auto value = plain_number(other);
+    if (value && dialect == Dialect::inp) return {*value};
+    if (value)
+      return {0.0, ValueError{fmt::format("`{}` is read as {} by svMultiPhysics, which stops in front of the D", text,
+                                          text.substr(0, text.find_first_of("dD"))),
+                              fmt::format("write {} for what it seems to mean", other)}};
+  }
+  if (text.empty()) return {0.0, ValueError{"has no value", "write a number, or remove the key"}};
+  return {0.0, ValueError{fmt::format("`{}` is no number", text::printable(text)),
+                          "write one number with a decimal point and nothing behind it"}};
+}
+
+ReadVector read_vector(std::string_view text, Dialect dialect) {
+  ReadVector vector;
+  std::string plain(text);
+  std::replace_if(
+      plain.begin(), plain.end(),
+      [](char c) { return std::string_view("(){},;\t\r\n").find(c) != std::string_view::npos; }, ' ');
+  for (std::size_t at = 0; (at = plain.find_first_not_of(' ', at)) != std::string::npos;) {
+    const auto end = std::min(plain.find(' ', at), plain.size());
+    const ReadNumber number = read_number(std::string_view(plain).substr(at, end - at), dialect);
+    if (number.error) return {{}, number.error};
+    vector.values.push_back(number.value);
+    at = end;
+  }
+  if (vector.values.empty()) vector.error = ValueError{"has no value", "write numbers, or remove the key"};
+  return vector;
+}
+
+ReadFlag read_flag(std::string_view text, Dialect dialect) {
+  const std::string word = dialect == Dialect::inp ? text::lower(text) : std::string(text);
+  const bool letter = dialect == Dialect::inp;
+  if (word == "true" || word == "1" || (letter && word == "t")) return {true};
+  if (word == "false" || word == "0" || (letter && word == "f")) return {false};
+  return {false, ValueError{fmt::format("`{}` is neither true nor false", text::printable(text)),
+                            letter ? "write t or f" : "write true or false"}};
+}
+
+std::string number_text(double value) { return fmt::format("{}", value); }
+
+}  // namespace tunica::peer_cases

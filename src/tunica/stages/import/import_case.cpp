@@ -1,0 +1,89 @@
+#include "tunica/stages/import/import_case.hpp"
+
+#include <fmt/format.h>
+
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/base/text.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/peer_cases/translate.hpp"
+
+namespace tunica::stages {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool all_there(const case_file::NamedFiles& files) {
+  std::error_code none;
+  for (const auto& [face, path] : files.faces)
+    if (!fs::is_regular_file(path, none)) return false;
+  return fs::is_regular_file(files.volume, none);
+}
+
+/// Boundary that no face holds; none where the meshes are not there.
+peer_cases::Leftover leftover(case_file::Case c, std::vector<std::string>& warnings) {
+  const auto look = [&](auto& mesh, const char* rest) {
+    if (!mesh || !all_there(mesh->files)) return false;
+    mesh->files.rest = rest;
+    return true;
+  };
+  // Elements and faces alone; what hangs on other files is looked at when the case is checked.
+  constexpr const char *lumen = "lumen", *wall = "wall";
+  if (c.meshes.wall) c.meshes.wall->region_array.reset();
+  c.meshes.interface.reset();
+  const bool looked[] = {look(c.meshes.lumen, lumen), look(c.meshes.wall, wall)};
+  if (!looked[0]) c.meshes.lumen.reset();
+  if (!looked[1]) c.meshes.wall.reset();
+  if (!looked[0] && !looked[1]) return {};
+  const auto mesh = artifacts::load_meshes(c.meshes, {});
+  warnings.insert(warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
+  peer_cases::Leftover found;
+  for (const auto& face : mesh.data.faces) {
+    found.lumen |= face.name == lumen;
+    found.wall |= face.name == wall;
+  }
+  return found;
+}
+
+/// The case that the text poses, with warnings of values that look like slips. What it does not take is a value beyond
+/// its range, which the peer's file holds.
+config::Parsed<case_file::Case> read(const std::string& yaml, const fs::path& file) {
+  const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = false};
+  try {
+    return config::parse_document(case_file::Case::schema(), case_file::case_document(yaml, file), origin);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.where += ", of the case file that would be written";
+    throw InputError(std::move(problems));
+  }
+}
+
+}  // namespace
+
+ImportOutcome import_case(const ImportRequest& request) {
+  const auto& units = peer_cases::unit_system(request.units);
+  const auto file = peer_cases::read_peer_file(request.file);
+  const fs::path folder = request.case_file.parent_path();
+  auto translation = peer_cases::translate(file, units, folder);
+  ImportOutcome outcome{.dropped = {}, .changed = {}, .defaults = {}, .warnings = translation.warnings};
+  auto posed = read(translation.yaml, request.case_file);
+  for (const Problem& warning : posed.warnings) outcome.warnings.push_back(format(warning));
+  const auto rest = leftover(std::move(posed.value), outcome.warnings);
+  if (rest.lumen || rest.wall) translation = peer_cases::translate(file, units, folder, rest);
+  outcome.dropped = translation.remarks.dropped;
+  outcome.changed = translation.remarks.changed;
+  outcome.defaults = translation.remarks.defaults;
+  std::error_code none;
+  if (fs::exists(request.case_file, none)) {
+    outcome.unchanged = text::read(request.case_file) == translation.yaml;
+    if (!outcome.unchanged && !request.overwrite)
+      throw InputError(request.case_file.string(), "is there already, with other contents",
+                       "choose another name by -o, or replace it with --overwrite");
+  }
+  if (!outcome.unchanged) files::write_atomically(request.case_file, translation.yaml);
+  return outcome;
+}
+
+}  // namespace tunica::stages

@@ -1,0 +1,338 @@
+#include "tunica/peer_cases/translate.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "temporary_folder.hpp"
+#include "tunica/base/error.hpp"
+
+namespace tunica::peer_cases {
+
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+
+/// The parts of a small flow problem that tests replace.
+struct FlowParts {
+  std::string general =
+      "<Number_of_time_steps>2</Number_of_time_steps><Time_step_size>0.005</Time_step_size>"
+      "<Spectral_radius_of_infinite_time_step>0.5</Spectral_radius_of_infinite_time_step>";
+  std::string mesh = "";
+  std::string equation =
+      "<Density>1.06</Density><Viscosity model=\"Constant\"><Value>0.04</Value></Viscosity>"
+      "<Tolerance>1e-5</Tolerance><Max_iterations>5</Max_iterations>";
+  std::string inlet = "<Type>Dir</Type><Value>-10</Value><Impose_flux>true</Impose_flux>";
+  std::string outlet = "<Type>Neu</Type><Time_dependence>Resistance</Time_dependence><Value>1212</Value>";
+  std::string more = "";
+};
+
+std::string flow(const FlowParts& p) {
+  return "<svMultiPhysicsFile><GeneralSimulationParameters>" + p.general +
+         "</GeneralSimulationParameters>\n<Add_mesh name=\"msh\"><Mesh_file_path>m/volume.vtu</Mesh_file_path>\n"
+         "<Add_face name=\"in\"><Face_file_path>m/in.vtp</Face_file_path></Add_face>\n"
+         "<Add_face name=\"out\"><Face_file_path>m/out.vtp</Face_file_path></Add_face>\n"
+         "<Add_face name=\"side\"><Face_file_path>m/side.vtp</Face_file_path></Add_face>" +
+         p.mesh + "</Add_mesh>\n<Add_equation type=\"fluid\">" + p.equation + "<Add_BC name=\"in\">" + p.inlet +
+         "</Add_BC>\n<Add_BC name=\"out\">" + p.outlet +
+         "</Add_BC>\n<Add_BC name=\"side\"><Type>Dir</Type><Value>0.0</Value></Add_BC>" + p.more +
+         "</Add_equation></svMultiPhysicsFile>";
+}
+
+/// A block of wall that is held at X0 and loaded at X1.
+std::string wall(const std::string& equation, const std::string& load, const std::string& type = "struct",
+                 const std::string& mesh = "") {
+  return "<svMultiPhysicsFile><GeneralSimulationParameters><Number_of_time_steps>2</Number_of_time_steps>"
+         "<Time_step_size>0.1</Time_step_size></GeneralSimulationParameters><Add_mesh name=\"msh\">"
+         "<Mesh_file_path>b/volume.vtu</Mesh_file_path>"
+         "<Add_face name=\"X0\"><Face_file_path>b/X0.vtp</Face_file_path></Add_face>"
+         "<Add_face name=\"X1\"><Face_file_path>b/X1.vtp</Face_file_path></Add_face>"
+         "<Add_face name=\"side\"><Face_file_path>b/side.vtp</Face_file_path></Add_face>" +
+         mesh + "</Add_mesh><Add_equation type=\"" + type + "\">" + equation +
+         "<Add_BC name=\"X0\"><Type>Dir</Type><Value>0</Value><Effective_direction>(1, 0, 1)</Effective_direction>"
+         "</Add_BC><Add_BC name=\"X1\">" +
+         load + "</Add_BC></Add_equation></svMultiPhysicsFile>";
+}
+constexpr const char* elastic =
+    "<Density>1.2</Density><Elasticity_modulus>1e6</Elasticity_modulus><Poisson_ratio>0.3</Poisson_ratio>";
+constexpr const char* pressure = "<Type>Neu</Type><Value>100.0</Value>";
+
+Translation translated(const std::string& xml, const std::string& units = "cgs") {
+  return translate(read_xml(xml, "case/solver.xml"), unit_system(units), "case");
+}
+std::string refused(const std::string& xml, const std::string& units = "cgs") {
+  return message_of<InputError>([&] { translated(xml, units); });
+}
+
+/// The lines of the case without comments and head.
+std::string plain(const Translation& translation) {
+  std::string text;
+  std::istringstream lines(translation.yaml);
+  for (std::string line; std::getline(lines, line);) {
+    line = line.substr(0, line.find('#'));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (!line.empty()) text += line + "\n";
+  }
+  return text;
+}
+
+testing::AssertionResult has(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "`" << part << "` is not in\n" << text;
+}
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& line : lines) text += line + "\n";
+  return text;
+}
+
+TEST(Translate, WritesAFlow) {
+  const auto translation = translated(flow({}));
+  EXPECT_EQ(plain(translation),
+            "title: solver.xml\nanalysis: flow\nmeshes:\n  length_unit: cm\n  lumen:\n    volume: m/volume.vtu\n"
+            "    faces:\n      in: m/in.vtp\n      out: m/out.vtp\n      side: m/side.vtp\nfluid:\n"
+            "  density: 1.06 g/cm^3\n  viscosity:\n    newtonian:\n      viscosity: 0.04 dyn s/cm^2\nboundary:\n"
+            "  in:\n    flow:\n      value: -10 cm^3/s\n      positive: outflow\n      profile: flat\n"
+            "  out:\n    resistance:\n      resistance: 1212 dyn s/cm^5\n  side:\n    no_slip: {}\n"
+            "time:\n  step: 0.005 s\n  steps: 2\n  rho_infinity: 0.5\nnewton:\n  relative_tolerance: 1e-05\n"
+            "output:\n  units:\n    length: cm\n    velocity: cm/s\n    pressure: dyn/cm^2\n    stress: dyn/cm^2\n"
+            "    flow: cm^3/s\n");
+  EXPECT_TRUE(has(translation.yaml, "density: 1.06 g/cm^3                          # solver.xml:6 Density"));
+  EXPECT_TRUE(has(joined(translation.remarks.dropped), "Max_iterations"));
+  EXPECT_TRUE(has(joined(translation.remarks.defaults), "Backflow_stabilization_coefficient: 0.2"));
+  EXPECT_EQ(translation.warnings.size(), 4u);  // four files that are not there
+}
+
+TEST(Translate, TakesUnitsFromTheSystem) {
+  FlowParts parts;
+  parts.equation = "<Density>1.06e-3</Density><Viscosity model=\"Newtonian\"><Value>0.004</Value></Viscosity>";
+  const auto mm = plain(translated(flow(parts), "mmgs"));
+  for (const char* line : {"length_unit: mm", "density: 1.06e-3 g/mm^3", "viscosity: 0.004 Pa s", "-10 mm^3/s",
+                           "1212 Pa s/mm^3", "pressure: Pa"})
+    EXPECT_TRUE(has(mm, line));
+  EXPECT_TRUE(has(refused(flow(parts), "cgs"), "with --units mmgs it is 1060"));
+  parts.mesh = "<Mesh_scale_factor>10</Mesh_scale_factor>";
+  EXPECT_TRUE(has(plain(translated(flow(parts), "mmgs")), "length_unit: cm"));
+  parts.mesh = "<Mesh_scale_factor>2.54</Mesh_scale_factor>";
+  EXPECT_TRUE(has(plain(translated(flow(parts), "mmgs")), "length_unit: mm\n  scale: 2.54"));
+}
+
+TEST(Translate, DoesNotInheritUnusableDefaults) {
+  FlowParts parts;
+  parts.equation = "<Viscosity model=\"Constant\"><Value>0.04</Value></Viscosity>";
+  const auto translation = translated(flow(parts));
+  const auto text = plain(translation), defaults = joined(translation.remarks.defaults);
+  EXPECT_EQ(text.find("density"), std::string::npos);
+  EXPECT_EQ(text.find("relative_tolerance"), std::string::npos);
+  EXPECT_TRUE(has(defaults, "Density: 1060 kg/m^3, the default of tunica; svMultiPhysics would take 0.5"));
+  EXPECT_TRUE(has(defaults, "Tolerance: 1e-4, the default of tunica; svMultiPhysics would take 0.5"));
+  EXPECT_TRUE(has(defaults, "Max_iterations: 12"));
+  const auto robin = translated(wall(elastic, "<Type>Robin</Type><Stiffness>1e4</Stiffness>"));
+  EXPECT_TRUE(has(plain(robin), "stiffness: 1e4 dyn/cm^3\n      damping: 0 dyn s/cm^3"));
+  EXPECT_TRUE(has(joined(robin.remarks.defaults), "Damping: 0; svMultiPhysics would take 1"));
+  EXPECT_TRUE(has(refused(wall("<Elasticity_modulus>1e6</Elasticity_modulus>", pressure)), "has no Density"));
+  EXPECT_TRUE(has(refused(wall("<Density>1</Density>", pressure)), "has no Elasticity_modulus"));
+  parts.equation = "<Density>1.06</Density>";
+  EXPECT_TRUE(has(refused(flow(parts)), "has no Viscosity"));
+}
+
+TEST(Translate, ReadsTimeCourses) {
+  FlowParts parts;
+  parts.inlet =
+      "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence>"
+      "<Temporal_values_file_path>in.flow</Temporal_values_file_path><Profile>Parabolic</Profile>"
+      "<Impose_flux>true</Impose_flux>";
+  EXPECT_TRUE(
+      has(plain(translated(flow(parts))),
+          "  in:\n    flow:\n      table:\n        file: in.flow\n        format: simvascular\n        time_unit: s\n"
+          "        unit: cm^3/s\n        interpolation: fourier\n        trend: true\n      positive: outflow\n"
+          "      profile: parabolic\n"));
+  parts.inlet =
+      "<Type>Neu</Type><Time_dependence>Unsteady</Time_dependence>"
+      "<Temporal_values_file_path>p.dat</Temporal_values_file_path><Ramp_function>true</Ramp_function>";
+  EXPECT_TRUE(has(plain(translated(flow(parts))),
+                  "pressure:\n      table:\n        file: p.dat\n        format: "
+                  "simvascular\n        time_unit: s\n        unit: dyn/cm^2\n        "
+                  "interpolation: ramp\n"));
+  parts.inlet =
+      "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence>"
+      "<Fourier_coefficients_file_path>in.fcs</Fourier_coefficients_file_path>";
+  EXPECT_TRUE(
+      has(plain(translated(flow(parts))),
+          "profile:\n      speed: \"-1\"\n      unit: cm/s\n      length_unit: cm\n      waveform:\n        table:\n "
+          "         file: in.fcs\n          format: fourier\n          time_unit: s\n"));
+  parts.inlet = "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence>";
+  EXPECT_TRUE(has(refused(flow(parts)), "Unsteady without a file"));
+}
+
+TEST(Translate, ReadsOutlets) {
+  FlowParts parts;
+  parts.outlet =
+      "<Type>Neu</Type><Time_dependence>RCR</Time_dependence><RCR_values><Capacitance>1.5e-5</Capacitance>"
+      "<Distal_resistance>1212</Distal_resistance><Proximal_resistance>121</Proximal_resistance>"
+      "<Distal_pressure>5</Distal_pressure></RCR_values>";
+  EXPECT_TRUE(
+      has(plain(translated(flow(parts))),
+          "rcr:\n      proximal: 121 dyn s/cm^5\n      capacitance: 1.5e-5 cm^5/dyn\n      distal: 1212 dyn s/cm^5\n"
+          "      distal_pressure: 5 dyn/cm^2\n      initial_pressure: 0 dyn/cm^2\n"));
+  parts.outlet = "<Type>Neu</Type><Value>2.5</Value>";
+  EXPECT_TRUE(has(plain(translated(flow(parts))), "out:\n    pressure:\n      value: 2.5 dyn/cm^2\n"));
+}
+
+TEST(Translate, ReadsZeroDimensionalOutlets) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "zerod.json")
+      << R"({"boundary_conditions": [{"bc_name": "R1", "bc_type": "RCR", "bc_values": {"Rp": 1, "C": 2, "Rd": 3}},
+            {"bc_name": "R2", "bc_type": "PRESSURE", "bc_values": {}}], "external_solver_coupling_blocks":
+            [{"name": "a", "connected_block": "R1"}, {"name": "b", "connected_block": "R2"}]})";
+  FlowParts parts;
+  parts.equation += "<svZeroDSolver_interface><Configuration_file>" + (folder.path() / "zerod.json").string() +
+                    "</Configuration_file></svZeroDSolver_interface>";
+  const auto with_block = [&](const std::string& block) {
+    parts.outlet =
+        "<Type>Neu</Type><Time_dependence>Coupled</Time_dependence><Coupling_interface><svZeroDSolver_block>" + block +
+        "</svZeroDSolver_block></Coupling_interface>";
+    auto file = read_xml(flow(parts), "solver.xml");
+    return translate(std::move(file), unit_system("cgs"), ".");
+  };
+  EXPECT_TRUE(has(plain(with_block("a")), "proximal: 1 dyn s/cm^5\n      capacitance: 2 cm^5/dyn\n      distal: 3"));
+  EXPECT_TRUE(has(message_of<InputError>([&] { with_block("b"); }), "`PRESSURE`"));
+  EXPECT_TRUE(has(message_of<InputError>([&] { with_block("c"); }), "`c`"));
+}
+
+TEST(Translate, SquaresCassonsParameters) {
+  FlowParts parts;
+  parts.equation =
+      "<Density>1.06</Density><Viscosity model=\"Cassons\"><Asymptotic_viscosity_parameter>0.5"
+      "</Asymptotic_viscosity_parameter><Yield_stress_parameter>0.25</Yield_stress_parameter></Viscosity>";
+  EXPECT_TRUE(has(plain(translated(flow(parts))),
+                  "casson:\n      viscosity_at_high_shear: 0.25 dyn s/cm^2\n      yield_stress: 0.0625 dyn/cm^2\n"
+                  "      regularising_shear_rate: 0.5 1/s\n"));
+}
+
+TEST(Translate, WritesAWall) {
+  const auto text = plain(translated(wall(elastic, pressure)));
+  for (const char* part : {"analysis: wall\n", "element: displacement\n  density: 1.2 g/cm^3\n",
+                           "neo_hooke:\n      young_modulus: 1e6 dyn/cm^2\n      poisson_ratio: 0.3\n",
+                           "volumetric_energy: simo_taylor\n", "X0:\n    fixed:\n      directions: [x, z]\n",
+                           "X1:\n    pressure:\n      value: 100 dyn/cm^2\n      follower: false\n", "side: free\n"})
+    EXPECT_TRUE(has(text, part));
+  EXPECT_TRUE(has(plain(translated(wall(elastic, pressure, "ustruct"))), "element: mixed\n"));
+  EXPECT_TRUE(has(plain(translated(wall(elastic,
+                                        "<Type>Neu</Type><Value>1</Value><Follower_pressure_load>true"
+                                        "</Follower_pressure_load>"))),
+                  "follower: true\n"));
+  const std::string massless =
+      "<Density>0</Density><Elasticity_modulus>1e6</Elasticity_modulus><Poisson_ratio>0.3</Poisson_ratio>";
+  const auto statics = plain(translated(wall(massless, pressure)));
+  EXPECT_TRUE(has(statics, "static_wall:\n    load_steps: 1\n    load_time: 0.2 s\n"));
+  EXPECT_EQ(statics.find("time:\n  step"), std::string::npos);
+}
+
+TEST(Translate, TakesThePenaltyForTheBulkModulus) {
+  const std::string e =
+      "<Density>1</Density><Elasticity_modulus>3e6</Elasticity_modulus><Poisson_ratio>0.5</Poisson_ratio>";
+  EXPECT_TRUE(has(refused(wall(e, pressure)), "incompressible, which struct cannot be"));
+  EXPECT_TRUE(has(plain(translated(wall(e, pressure, "ustruct"))), "poisson_ratio: 0.5\n"));
+  const std::string penalty = e +
+                              "<Penalty_parameter>4e9</Penalty_parameter>"
+                              "<Dilational_penalty_model>M94</Dilational_penalty_model>";
+  EXPECT_TRUE(has(plain(translated(wall(penalty, pressure))),
+                  "shear_modulus: 1000000 dyn/cm^2\n      bulk_modulus: 4e9 dyn/cm^2\n  volumetric_energy: miehe\n"));
+}
+
+TEST(Translate, WritesLawsWithFibres) {
+  const std::string mesh =
+      "<Fiber_direction>(0.0, 0.0, 2.0)</Fiber_direction><Fiber_direction>(1, 0, 0)</Fiber_direction>";
+  const auto guccione = plain(translated(
+      wall(std::string(elastic) + "<Constitutive_model type=\"Gucci\"><c>100.0</c><bf>8</bf><bt>6</bt><bfs>12</bfs>"
+                                  "</Constitutive_model>",
+           pressure, "struct", mesh)));
+  EXPECT_TRUE(
+      has(guccione,
+          "fung:\n      c: 100.0 dyn/cm^2\n      b_cc: 8\n      b_ll: 6\n      b_rr: 6\n      b_cl: 0\n      b_lr: 0\n"
+          "      b_rc: 0\n      g_cl: 24\n      g_lr: 12\n      g_rc: 24\n      bulk_modulus: "));
+  EXPECT_TRUE(has(guccione, "fibre_frame:\n    constant:\n      e1: [0, 0, 2]\n      e2: [1, 0, 0]\n"));
+  const std::string hgo = std::string(elastic) +
+                          "<Constitutive_model type=\"HGO\"><a4>1e5</a4><b4>5</b4><a6>2e5</a6>"
+                          "<b6>6</b6><kappa>0.1</kappa></Constitutive_model>";
+  const auto text = plain(translated(wall(hgo, pressure, "ustruct", mesh)));
+  EXPECT_TRUE(has(text, "exclusion: none\n      fibre_energy: isochoric\n"));
+  EXPECT_TRUE(
+      has(text, fmt::format("mean_angle: {} rad\n          kappa: 0.1\n          k1: 2e5 dyn/cm^2\n          k2: 6\n",
+                            std::acos(0.0))));
+  EXPECT_TRUE(has(refused(wall(hgo, pressure)), "has 0 fibre directions"));
+}
+
+TEST(Translate, NamesThePhysicsThatIsMissing) {
+  FlowParts parts;
+  parts.more = "<Add_BC name=\"side\"><Type>Neu</Type><Value>1</Value></Add_BC>";
+  EXPECT_TRUE(has(refused(flow(parts)), "a second condition on the face side beside that of line 8"));
+  parts.more = "<Add_BC name=\"sied\"><Type>Neu</Type><Value>1</Value></Add_BC>";
+  EXPECT_TRUE(has(refused(flow(parts)), "names the face `sied`"));
+  parts.more = "";
+  parts.general += "<Number_of_spatial_dimensions>2</Number_of_spatial_dimensions>";
+  EXPECT_TRUE(has(refused(flow(parts)), "two dimensions"));
+  const auto with_law = [](const std::string& law) {
+    return refused(wall(std::string(elastic) + "<Constitutive_model type=\"" + law + "\"/>", pressure));
+  };
+  EXPECT_TRUE(has(with_law("HO"), "Holzapfel and Ogden"));
+  EXPECT_TRUE(has(with_law("CANN"), "neural network"));
+  EXPECT_TRUE(has(with_law("nkH"), "`nkH`"));
+  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Dir</Type><Value>0.1</Value>")), "displacement is given"));
+  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Neu</Type><Value>(1, 2, 3)</Value>")), "has 3 components"));
+  for (const auto& [type, physics] : {std::pair{"heatF", "dye"},
+                                      {"CMM", "coupled momentum"},
+                                      {"stokes", "inertia"},
+                                      {"shell", "shells"},
+                                      {"CEP", "electrophysiology"},
+                                      {"lElas", "linear elasticity"}})
+    EXPECT_TRUE(has(refused(wall(elastic, pressure, type)), physics));
+}
+
+TEST(Translate, ReportsMeshesThatAreMissing) {
+  std::string xml = wall(std::string(elastic) + "<Constitutive_model type=\"HGO\"/>", pressure);
+  const auto begin = xml.find("<Add_mesh"), end = xml.find("</Add_mesh>") + 11;
+  EXPECT_TRUE(has(refused(xml.erase(begin, end - begin)), "has no mesh of the wall"));
+}
+
+TEST(Translate, RefusesTraps) {
+  FlowParts parts;
+  parts.equation += "<Backflow_stabilization_coefficient>2D-1</Backflow_stabilization_coefficient>";
+  EXPECT_TRUE(has(refused(flow(parts)), "is read as 2 by svMultiPhysics"));
+  parts.equation =
+      "<Density>1.06</Density><Viscosity model=\"Constant\"><Value>0.04</Value></Viscosity><Tolerence>1"
+      "</Tolerence>";
+  EXPECT_TRUE(has(refused(flow(parts)), "did you mean Tolerance"));
+}
+
+TEST(Translate, GivesTheRestOfTheBoundaryNaturalConditions) {
+  const auto translation =
+      translate(read_xml(flow({}), "case/solver.xml"), unit_system("cgs"), "case", {.lumen = true, .wall = false});
+  EXPECT_TRUE(has(plain(translation), "rest: lumen_rest\n"));
+  EXPECT_TRUE(has(plain(translation), "lumen_rest:\n    pressure: 0 dyn/cm^2\n"));
+}
+
+TEST(Translate, CountsPathsFromTheCase) {
+  const auto translation = translate(read_xml(flow({}), "a/b/solver.xml"), unit_system("cgs"), "a/c");
+  EXPECT_TRUE(has(plain(translation), "volume: ../b/m/volume.vtu\n"));
+}
+
+TEST(Translate, ReadsBothFormatsAlike) {
+  const char* inp =
+      "Number of time steps: 2\nTime step size: 0.005\nSpectral radius of infinite time step: 0.5\n"
+      "Add mesh: msh {\nMesh file path: m/volume.vtu\nAdd face: in {Face file path: m/in.vtp}\n"
+      "Add face: out {Face file path: m/out.vtp}\nAdd face: side {Face file path: m/side.vtp}\n}\n"
+      "Add equation: fluid {\nDensity: 1.06\nViscosity: Constant {Value: 0.04}\nTolerance: 1e-5\nMax iterations: 5\n"
+      "Add BC: in {\nType: Dir\nValue: -10\nImpose flux: t\n}\nAdd BC: out {\nType: Neu\nTime dependence: Resistance\n"
+      "Value: 1212\n}\nAdd BC: side {\nType: Dir\nValue: 0.0\n}\n}\n";
+  const auto one = plain(translated(flow({})));
+  const auto other = plain(translate(read_inp(inp, "case/svFSI.inp"), unit_system("cgs"), "case"));
+  EXPECT_EQ(one.substr(one.find('\n')), other.substr(other.find('\n')));  // but the title
+}
+
+}  // namespace
+
+}  // namespace tunica::peer_cases
