@@ -1,4 +1,5 @@
-// What the files of `tunica material`, `tunica fit` and `tunica mesh` may hold, for callers that need not know what it fills.
+// What the files of `tunica material`, `tunica fit` and `tunica mesh` may hold, for callers that need not know what it
+// fills.
 #pragma once
 
 #include <memory>

@@ -119,9 +119,11 @@ Schema<GmshMesh> gmsh_schema() {
 
 Schema<mesh::TubeSizes> tube_schema() {
   using mesh::TubeSizes;
-  return Schema<TubeSizes>("tube",
-                           "Straight round tube along z that tunica meshes itself: faces lumen_inlet, lumen_outlet, "
-                           "lumen_wall, and with a wall wall_inlet, wall_outlet, wall_inner, wall_outer.")
+  return Schema<TubeSizes>(
+             "tube",
+             "Straight round tube along z that tunica meshes itself: faces lumen_inlet, lumen_outlet, "
+             "lumen_wall, and with a wall wall_inlet, wall_outlet, wall_inner, wall_outer. Its polygons have "
+             "the areas of the circles.")
       .quantity("radius", &TubeSizes::radius, dimension::length, config::above(0), "Radius of the lumen")
       .quantity("length", &TubeSizes::length, dimension::length, config::above(0), "Length")
       .quantity("wall_thickness", &TubeSizes::wall_thickness, dimension::length, config::at_least(0), "0: no wall")

@@ -368,6 +368,11 @@ class Remesher {
     return (1.0 / 6) * sum;
   }
 
+  /// Of a crease that bends on as the rim of a hole does; one of a rough surface does not.
+  static bool alike(const std::vector<Vec3<double>>& gaps) {
+    return gaps.size() == 2 && dot(gaps[0], gaps[1]) > 0.5 * std::max(dot(gaps[0], gaps[0]), dot(gaps[1], gaps[1]));
+  }
+
   /// Edge midpoints integrate a quadratic deviation exactly, so its mean over a triangle is theirs.
   void fit() {
     if (options_.keep_boundary) return;
@@ -378,8 +383,12 @@ class Remesher {
       const auto n = normal(v);
       double sum = 0, weights = 0;
       Vec3<double> line_sum{{0, 0, 0}};
+      std::vector<Vec3<double>> line_gaps;
       for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
-        if (on_line(mesh_.edge(h))) line_sum = line_sum + 0.5 * line_deviation(mesh_.edge(h), gap[mesh_.edge(h)]);
+        if (on_line(mesh_.edge(h))) {
+          line_gaps.push_back(line_deviation(mesh_.edge(h), gap[mesh_.edge(h)]));
+          line_sum = line_sum + 0.5 * line_gaps.back();
+        }
         if (mesh_.is_border(h)) continue;
         const double weight = norm(area_of(mesh_.face(h))) / 3;
         for (const auto side : mesh_.halfedges_around_face(h)) sum += weight * dot(gap[mesh_.edge(side)], n);
@@ -387,9 +396,9 @@ class Remesher {
       }
       const int count = lines_at(v);
       if (is_corner(count)) continue;
-      if (count > 0)
-        moves.emplace_back(v, mesh_.point(v) + line_sum);
-      else if (weights > 0)
+      if (count > 0) {
+        if (mesh_.is_border(v) || alike(line_gaps)) moves.emplace_back(v, mesh_.point(v) + line_sum);
+      } else if (weights > 0)
         moves.emplace_back(v, mesh_.point(v) + (sum / weights) * n);
     }
     for (const auto& [v, place] : moves)

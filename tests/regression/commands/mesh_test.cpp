@@ -40,7 +40,7 @@ TEST_F(MeshCommand, ImagesAreWrittenAndWhatTheyLackIsSaid) {
       << printed();
   const std::string opening = "    openings: {inlet: {centre: [0 m, 0 m, 1 m]}}\n";
   EXPECT_NE(
-      refused(section.substr(0, section.find("    openings")) + opening).find("no vessel ends in a flat face within"),
+      refused(section.substr(0, section.find("    openings")) + opening).find("no vessel ends within two radii of"),
       std::string::npos)
       << printed();
   write("images/mesh.yaml", "geometry: {image: {file: none.nrrd, smoothing: 9}}\n");

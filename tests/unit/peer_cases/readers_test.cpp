@@ -1,4 +1,5 @@
 // Both formats become the same tree.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,11 +17,12 @@ using test::message_of;
 using test::TemporaryFolder;
 
 std::string keys(const Entry& entry) {
-  std::string text =
-      entry.key + (entry.label.empty() ? "" : "[" + entry.label + "]") + (entry.value.empty() ? "" : "=" + entry.value);
+  std::string text = entry.key;
+  if (!entry.label.empty()) text += fmt::format("[{}]", entry.label);
+  if (!entry.value.empty()) text += fmt::format("={}", entry.value);
   if (!entry.entries.empty()) {
     text += "(";
-    for (const Entry& below : entry.entries) text += (text.back() == '(' ? "" : " ") + keys(below);
+    for (const Entry& below : entry.entries) text += fmt::format("{}{}", text.back() == '(' ? "" : " ", keys(below));
     text += ")";
   }
   return text;
