@@ -25,12 +25,10 @@ struct Tube {
   double period = 1, pressure_amplitude = 5;  // s, Pa: of the pulsatile flow
 };
 
-/// Its polygon has the area of the circle.
 std::string tube_mesh(const Tube& t, const Variant& v) {
-  const int around = v.full ? 48 : 24;
   return fmt::format(
       "meshes: {{tube: {{radius: {} m, length: {} m, cells_around: {}, cells_radial: {}, cells_along: {}}}}}\n",
-      t.radius * polygon_radius(around), t.length, around, v.full ? 4 : 2, v.full ? 12 : 4);
+      t.radius, t.length, v.full ? 48 : 24, v.full ? 4 : 2, v.full ? 12 : 4);
 }
 
 Posed poiseuille_case(const Variant& v) {
