@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "tunica/artifacts/plausible_faces.hpp"
@@ -104,7 +103,7 @@ LoadedMesh read_regions(const case_file::MeshSettings& m, const WallArrays& arra
 /// The sizes for which the polygons of mesh::tube() have the areas of the circles of `sizes`: their corners lie outside
 /// of the circles. What corners on the circle take from the area, they would add twice over to the resistance.
 mesh::TubeSizes with_areas_of_circles(mesh::TubeSizes sizes) {
-  const double turn = 2 * M_PI / sizes.cells_around, factor = std::sqrt(turn / std::sin(turn));
+  const double factor = mesh::polygon_radius(sizes.cells_around);
   sizes.radius *= factor;
   sizes.wall_thickness *= factor;
   return sizes;

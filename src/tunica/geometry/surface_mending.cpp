@@ -296,7 +296,7 @@ MendedSurface mend_surface(TriangleSurface surface, const MendOptions& options) 
   complaints.throw_any();
 
   mended.openings = std::ssize(boundary_loops(surface));
-  mended.genus = genus(surface, mended.openings) + options.parts - 1;
+  mended.genus = genus(surface, mended.openings, options.parts);
   for (const auto& t : surface.triangles) mended.slivers += smallest_angle(surface, t) < M_PI / 180;
   report.push_back(fmt::format("{} triangles, {} openings, genus {}, {} slivers", surface.triangles.size(),
                                mended.openings, mended.genus, mended.slivers));

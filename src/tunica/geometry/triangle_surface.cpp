@@ -113,13 +113,13 @@ std::vector<std::int64_t> components(const TriangleSurface& surface) {
   return result;
 }
 
-std::int64_t genus(const TriangleSurface& surface, std::int64_t loops) {
+std::int64_t genus(const TriangleSurface& surface, std::int64_t loops, int parts) {
   std::vector<bool> used(surface.points.size(), false);
   for (const auto& t : surface.triangles)
     for (const auto corner : t) used[corner] = true;
   const auto euler =
       std::count(used.begin(), used.end(), true) - std::ssize(edges(surface)) + std::ssize(surface.triangles) + loops;
-  return (2 - euler) / 2;
+  return (2 * parts - euler) / 2;
 }
 
 void average_over_neighbours(const TriangleSurface& surface, int sweeps, std::vector<double>& values) {

@@ -46,8 +46,8 @@ std::vector<SurfaceEdge> edges(const TriangleSurface& surface);
 std::vector<Loop> boundary_loops(const TriangleSurface& surface);
 /// Number of the connected component (joined by edges) of each triangle, from 0.
 std::vector<std::int64_t> components(const TriangleSurface& surface);
-/// Genus of a connected manifold surface after its `loops` open ends are closed by discs.
-std::int64_t genus(const TriangleSurface& surface, std::int64_t loops);
+/// Genus of a manifold surface of `parts` connected ones, their sum, after its `loops` open ends are closed by discs.
+std::int64_t genus(const TriangleSurface& surface, std::int64_t loops, int parts = 1);
 
 /// Gives each point the mean of its own and its neighbours' values, `sweeps` times.
 void average_over_neighbours(const TriangleSurface& surface, int sweeps, std::vector<double>& values);

@@ -110,8 +110,7 @@ void log_shape(const LabelSurface& result, const Log& log) {
 
 /// Every tear beyond the first makes a handle, and nothing else does.
 void check_genus(const LabelSurface& result, std::int64_t expected, const Log& log) {
-  // The formula is that of one part; each further one adds 1.
-  const auto genus = geometry::genus(result.lumen, std::ssize(result.ends)) + result.parts - 1;
+  const auto genus = geometry::genus(result.lumen, std::ssize(result.ends), result.parts);
   log(fmt::format("lumen surface: {} triangles, {} openings, genus {}", result.lumen.triangles.size(),
                   result.ends.size(), genus));
   if (genus == expected) return;

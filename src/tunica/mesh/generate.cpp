@@ -160,6 +160,11 @@ std::string objection_to_counts(const TubeSizes& z) {
   return {};
 }
 
+double polygon_radius(int corners) {
+  const double angle = 2 * pi / corners;
+  return std::sqrt(angle / std::sin(angle));
+}
+
 MeshData tube(const TubeSizes& z) {
   require(z.radius > 0 && z.length > 0, "tube", "radius and length must be positive");
   require(z.wall_thickness >= 0, "tube", "the wall thickness must not be negative");

@@ -25,6 +25,9 @@ struct TubeSizes {
 /// mesh that does not fit into the memory of this machine. Empty when it can. Counts >= 1.
 std::string objection_to_counts(const TubeSizes& sizes);
 
+/// Radius at the corners of a regular polygon that has the area of a circle of radius 1.
+double polygon_radius(int corners);
+
 /// Lumen ("lumen": faces lumen_inlet, lumen_outlet, lumen_wall) from a butterfly grid, and unless wall_thickness is 0
 /// a coaxial wall ("wall": wall_inlet, wall_outlet, wall_inner, wall_outer) whose inner nodes are twins of lumen_wall.
 /// The circles are polygons with `cells_around` corners on them. InputError for sizes out of range.

@@ -95,8 +95,7 @@ void check_scale(const std::vector<geometry::Opening>& openings) {
 /// Before anything that takes time: another genus means a hole in the flap, or vessels that touch.
 void check_genus(const geometry::TriangleSurface& lumen, const ComplexOptions& options) {
   if (!options.genus) return;
-  const auto loops = std::ssize(geometry::boundary_loops(lumen));
-  const auto genus = geometry::genus(lumen, loops) + options.lumen_parts - 1;
+  const auto genus = geometry::genus(lumen, std::ssize(geometry::boundary_loops(lumen)), options.lumen_parts);
   if (genus != *options.genus)
     throw InputError(
         "lumen surface",

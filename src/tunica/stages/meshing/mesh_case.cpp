@@ -46,7 +46,7 @@ meshing::WallLayers find_layers(const geometry::Tetrahedra& mesh, meshing::Surfa
 
 /// A hole in the flap or a fold taken for one shows here, whatever the geometry came from.
 void compare_tears(const geometry::TriangleSurface& lumen, int parts, std::size_t tears, const files::Say& tell) {
-  const auto genus = geometry::genus(lumen, std::ssize(geometry::boundary_loops(lumen))) + parts - 1;
+  const auto genus = geometry::genus(lumen, std::ssize(geometry::boundary_loops(lumen)), parts);
   if (tears > 0 && static_cast<std::int64_t>(tears) != genus + 1)
     tell(
         fmt::format("warning: {} tears are found in the mesh, but a lumen of genus {} has {}: look at the tears in the "

@@ -22,11 +22,6 @@ std::string fluid_section(double density, double viscosity) {
                      viscosity);
 }
 
-double polygon_radius(int corners) {
-  const double angle = 2 * std::numbers::pi / corners;
-  return std::sqrt(angle / std::sin(angle));
-}
-
 std::complex<double> bessel(int order, std::complex<double> z) {
   const std::complex<double> square = -0.25 * z * z;
   std::complex<double> term = order == 0 ? 1.0 : 0.5 * z, sum = term;

@@ -89,8 +89,6 @@ std::string fluid_section(double density, double viscosity);
 /// The lines that all sections `output` begin with: no fields, SI.
 extern const char* const output_section;
 
-/// Radius at the corners of a polygon that has the area of a circle of radius 1.
-double polygon_radius(int corners);
 /// J_0 and J_1 by their series.
 std::complex<double> bessel(int order, std::complex<double> z);
 /// Amplitude of what has the period `period` in the last whole period: value = Re(amplitude e^(i omega t)).

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "tunica/mesh/generate.hpp"
+
 namespace tunica::stages::validate {
 
 namespace {
@@ -31,7 +33,7 @@ Profile subdivided(const Profile& profile, double spacing) {
 
 /// Open at both ends, normals outward, in mm.
 std::string obj(const Profile& profile, int around) {
-  const double step = 2 * std::numbers::pi / around, same_area = std::sqrt(step / std::sin(step));
+  const double step = 2 * std::numbers::pi / around, same_area = mesh::polygon_radius(around);
   std::string text;
   auto out = std::back_inserter(text);
   for (const auto& [z, r] : profile)

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "tunica/mesh/generate.hpp"
 #include "tunica/stages/validate/benchmark.hpp"
 
 namespace tunica::stages::validate {
@@ -63,36 +64,36 @@ Posed wave_case(const Variant& v) {
   std::string table = "time,pressure\n";
   for (int k = 0; k <= 200; ++k)
     table += fmt::format("{},{:.12g}\n", k / (200 * t.frequency), t.pressure * std::cos(2 * pi * k / 200));
-  return {
-      .case_text = "title: Harmonic wave in an elastic tube\nanalysis: fsi\n" + elements_line(v) +
-                   fmt::format("meshes:\n"
-                               "  tube: {{radius: {} m, length: {} m, wall_thickness: {} m, cells_around: {}, "
-                               "cells_radial: {}, cells_along: {}, cells_through_wall: 1}}\n"
-                               "  interface: {{lumen: lumen_wall, wall: wall_inner}}\n",
-                               t.radius, t.length, t.thickness, around, v.full ? 4 : 2, v.full ? 32 : 12) +
-                   fluid_section(t.density, t.viscosity) +
-                   fmt::format("wall:\n"
-                               "  density: {} kg/m^3\n"
-                               "  material: {{neo_hooke: {{young_modulus: {} Pa, poisson_ratio: {}}}}}\n"
-                               "boundary:\n"
-                               "  lumen_inlet:\n"
-                               "    pressure:\n"
-                               "      table: {{file: pressure.csv, time_unit: s, unit: Pa}}\n"
-                               "  lumen_outlet: {{resistance: {} Pa s/m^3}}\n"
-                               "  wall_inlet: {{fixed: {{directions: [z]}}}}\n"
-                               "  wall_outlet: {{fixed: {{directions: [z]}}}}\n"
-                               "  wall_outer: {{fixed: {{directions: [z]}}}}\n"
-                               "time: {{step: {} s, steps: {}}}\n",
-                               t.density, t.young, t.poisson, t.matched_resistance(), 1 / (t.frequency * steps),
-                               periods * steps) +
-                   output_section +
-                   fmt::format("  points:\n"
-                               "    first: {{place: [{0} m, 0 m, {1} m], region: wall}}\n"
-                               "    second: {{place: [{0} m, 0 m, {2} m], region: wall}}\n"
-                               "    middle: [0 m, 0 m, {3} m]\n",
-                               t.radius * polygon_radius(around), first * t.length, second * t.length, 0.5 * t.length),
-      .mesh = {},
-      .files = {{"pressure.csv", table}}};
+  return {.case_text =
+              "title: Harmonic wave in an elastic tube\nanalysis: fsi\n" + elements_line(v) +
+              fmt::format("meshes:\n"
+                          "  tube: {{radius: {} m, length: {} m, wall_thickness: {} m, cells_around: {}, "
+                          "cells_radial: {}, cells_along: {}, cells_through_wall: 1}}\n"
+                          "  interface: {{lumen: lumen_wall, wall: wall_inner}}\n",
+                          t.radius, t.length, t.thickness, around, v.full ? 4 : 2, v.full ? 32 : 12) +
+              fluid_section(t.density, t.viscosity) +
+              fmt::format("wall:\n"
+                          "  density: {} kg/m^3\n"
+                          "  material: {{neo_hooke: {{young_modulus: {} Pa, poisson_ratio: {}}}}}\n"
+                          "boundary:\n"
+                          "  lumen_inlet:\n"
+                          "    pressure:\n"
+                          "      table: {{file: pressure.csv, time_unit: s, unit: Pa}}\n"
+                          "  lumen_outlet: {{resistance: {} Pa s/m^3}}\n"
+                          "  wall_inlet: {{fixed: {{directions: [z]}}}}\n"
+                          "  wall_outlet: {{fixed: {{directions: [z]}}}}\n"
+                          "  wall_outer: {{fixed: {{directions: [z]}}}}\n"
+                          "time: {{step: {} s, steps: {}}}\n",
+                          t.density, t.young, t.poisson, t.matched_resistance(), 1 / (t.frequency * steps),
+                          periods * steps) +
+              output_section +
+              fmt::format("  points:\n"
+                          "    first: {{place: [{0} m, 0 m, {1} m], region: wall}}\n"
+                          "    second: {{place: [{0} m, 0 m, {2} m], region: wall}}\n"
+                          "    middle: [0 m, 0 m, {3} m]\n",
+                          t.radius * mesh::polygon_radius(around), first * t.length, second * t.length, 0.5 * t.length),
+          .mesh = {},
+          .files = {{"pressure.csv", table}}};
 }
 
 std::vector<double> wave_figures(const Results& r) {
