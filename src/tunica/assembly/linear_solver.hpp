@@ -14,9 +14,6 @@ namespace tunica::assembly {
 /// Solves (A + sum c_k s_k s_k^T) x = b. Right-preconditioned, so the residual that is tested is the true one, in a
 /// norm where every equation is divided by the square root of its diagonal entry: momentum and continuity, fluid and
 /// wall then weigh alike.
-///
-/// Outlets enter the preconditioner exactly, by the Sherman-Morrison-Woodbury formula with one preconditioner
-/// application per outlet at set-up.
 class LinearSolver {
  public:
   LinearSolver(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa, KrylovSettings settings);
@@ -44,9 +41,6 @@ class LinearSolver {
   const BlockMatrix* matrix_ = nullptr;
   const std::vector<RankOne>* outlets_ = nullptr;
 
-  std::vector<std::vector<double>> preconditioned_;  ///< M^-1 s_k, [owned node][4]
-  std::vector<RankOne> preconditioned_outlets_;
-  std::vector<double> capacitance_inverse_;  ///< (diag(1/c) + s^T M^-1 s)^-1, row-major
   std::vector<double> halo_, work_;
   Krylov krylov_;
 };

@@ -33,14 +33,23 @@ SchurPreconditioner::SchurPreconditioner(const distributed::DistributedMesh& mes
   scratch_.assign(n, -1);
   factors_ = {n, lower_.view(), upper_.view(), inverse_blocks_.data()};
 
-  divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
+  if (!mesh.quadratic) divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
   gradient_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
   inverse_diagonal_.assign(n, 0);
   scale_.assign(4 * static_cast<std::size_t>(n), 1);
   z_.resize(4 * static_cast<std::size_t>(n));
-  if (mesh.quadratic) second_.resize(z_.size());
+  second_.resize(z_.size());
+  sweep_.resize(z_.size());
+  pressure_rhs_.resize(n);
+  yield_.assign(n, 1.0);
   halo_v_.assign(4 * static_cast<std::size_t>(pattern.columns_count), 0);
   halo_p_.assign(pattern.columns_count, 0);
+  free_.assign(halo_v_.size(), 0);
+  const auto has = [&](mesh::RegionKind kind) {
+    return std::any_of(mesh.regions.begin(), mesh.regions.end(), [&](const auto& r) { return r.kind == kind; });
+  };
+  // Beside a lumen, linear elements spend more on the coarse motions than these save (docs/performance.md).
+  if (has(mesh::RegionKind::wall) && (mesh.quadratic || !has(mesh::RegionKind::lumen))) wall_.emplace(mesh, pattern);
 
   make_laplacians();
   std::vector<PetscInt> rows, columns;
@@ -77,6 +86,7 @@ void SchurPreconditioner::make_laplacians() {
         distributed::for_each_node(region, e, [&](std::int32_t node) { follows_[node] = 1; });
       const auto shape = fe::gradients(x);
       Laplacian& laplacian = laplacians_.emplace_back();
+      laplacian.wall = region.kind == mesh::RegionKind::wall;
       laplacian.count = mesh_.quadratic ? 6 : 4;
       if (mesh_.quadratic)
         laplacian.nodes = region.edges[e];
@@ -98,7 +108,7 @@ void SchurPreconditioner::extract(const BlockMatrix& matrix) {
   for (std::int32_t b = 0; b < pattern_.blocks(); ++b) {
     const float* a = matrix.blocks[b].a;
     for (int c = 0; c < 3; ++c) {
-      divergence_[4 * static_cast<std::size_t>(b) + c] = a[4 * c + 3];
+      if (!mesh_.quadratic) divergence_[4 * static_cast<std::size_t>(b) + c] = a[4 * c + 3];
       gradient_[4 * static_cast<std::size_t>(b) + c] = a[12 + c];
     }
   }
@@ -109,6 +119,19 @@ void SchurPreconditioner::extract(const BlockMatrix& matrix) {
       scale_[4 * static_cast<std::size_t>(i) + c] = std::sqrt(std::abs(k));
     }
   }
+}
+
+// A prescribed component has nothing but the diagonal in its row.
+void SchurPreconditioner::find_free(const BlockMatrix& matrix) {
+  for (std::int32_t i = 0; i < pattern_.rows; ++i)
+    for (int r = 0; r < 3; ++r) {
+      bool coupled = false;
+      for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1] && !coupled; ++b)
+        for (int c = 0; c < 3; ++c)
+          coupled |= matrix.blocks[b].a[4 * c + r] != 0.0F && !(pattern_.columns[b] == i && c == r);
+      free_[4 * static_cast<std::size_t>(i) + r] = coupled ? 1.0 : 0.0;
+    }
+  mesh_.halo.update(free_, 4);
 }
 
 std::int32_t SchurPreconditioner::factorise_shifted(const BlockMatrix& matrix, float shift) {
@@ -129,10 +152,10 @@ std::int32_t SchurPreconditioner::factorise_shifted(const BlockMatrix& matrix, f
 }
 
 bool SchurPreconditioner::factors_are_stable() {
-  for (std::size_t i = 0; i < z_.size(); ++i) z_[i] = static_cast<float>(scale_[i] * scale_[i]);
-  block_kernels(isa_).ilu_solve(factors_, z_.data());
-  for (std::size_t i = 0; i < z_.size(); ++i)
-    if (i % 4 < 3 && !(std::abs(z_[i]) < 1e6F)) return false;
+  for (std::size_t i = 0; i < sweep_.size(); ++i) sweep_[i] = static_cast<float>(scale_[i] * scale_[i]);
+  block_kernels(isa_).ilu_solve(factors_, sweep_.data());
+  for (std::size_t i = 0; i < sweep_.size(); ++i)
+    if (i % 4 < 3 && !(std::abs(sweep_[i]) < 1e6F)) return false;
   return true;
 }
 
@@ -162,7 +185,7 @@ void SchurPreconditioner::factorise(const BlockMatrix& matrix) {
 
 // Mobility of a node: volume over the mean diagonal of K. Of linear elements the share of the consistent mass (its row
 // sum is 2.5 times its diagonal) counts with its row sum, since pressure gradients are smooth. Quadratic elements are
-// judged by the nodes on their edges, with the diagonal of the mass as the volume.
+// judged by the nodes on their edges, with the diagonal of the mass as the volume. Prescribed components yield nothing.
 std::vector<double> SchurPreconditioner::mobility(const BlockMatrix& matrix) {
   std::vector<double> result(pattern_.columns_count, 0.0);
   for (std::int32_t i = 0; i < pattern_.rows; ++i) {
@@ -177,7 +200,8 @@ std::vector<double> SchurPreconditioner::mobility(const BlockMatrix& matrix) {
       inverse_diagonal_[i] = 3.0 / diagonal;
     else
       inverse_diagonal_[i] = 3.0 / (diagonal + 0.6 * std::clamp(sum, 0.0, 2.5 * diagonal));
-    result[i] = nodal_volume_[i] * inverse_diagonal_[i];
+    const double* free = free_.data() + 4 * static_cast<std::size_t>(i);
+    result[i] = (free[0] + free[1] + free[2]) / 3.0 * nodal_volume_[i] * inverse_diagonal_[i];
   }
   mesh_.halo.update(result, 1);
   for (std::int32_t i = 0; i < pattern_.columns_count; ++i)
@@ -185,8 +209,9 @@ std::vector<double> SchurPreconditioner::mobility(const BlockMatrix& matrix) {
   return result;
 }
 
-void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
+void SchurPreconditioner::build_schur(const BlockMatrix& matrix, const std::vector<RankOne>& outlets) {
   const std::vector<double> mobile = mobility(matrix);
+  find_yield(outlets);
   std::fill(schur_values_.begin(), schur_values_.end(), 0.0);
   for (std::int32_t b = 0; b < pressure_pattern_.blocks(); ++b)
     schur_values_[b] = matrix.blocks[pressure_source_[b]].a[15];
@@ -196,8 +221,10 @@ void SchurPreconditioner::build_schur(const BlockMatrix& matrix) {
     for (int a = 0, k = 0; a < 4; ++a)
       for (int b = a + 1; b < 4; ++b, ++k) {
         const double value = weight * e.entries[k];
-        schur_values_[e.slots[4 * a + b]] += value;
-        schur_values_[e.slots[4 * b + a]] += value;
+        if (!e.wall || !mesh_.quadratic) {
+          schur_values_[e.slots[4 * a + b]] += value;
+          schur_values_[e.slots[4 * b + a]] += value;
+        }
         schur_values_[e.slots[5 * a]] -= value;
         schur_values_[e.slots[5 * b]] -= value;
       }
@@ -224,7 +251,7 @@ void SchurPreconditioner::add_free_boundary(const BlockMatrix& matrix) {
       if (mesh_.host[column] == i && column != i) twin = column;
       for (int c = 0; c < 3; ++c) n[other_side ? 1 : 0][c] += matrix.blocks[b].a[12 + c];
     }
-    const double h = inverse_diagonal_[i];
+    const double h = yield_[i] * inverse_diagonal_[i];
     const auto product = [&](int p, int q) { return h * (n[p][0] * n[q][0] + n[p][1] * n[q][1] + n[p][2] * n[q][2]); };
     schur_values_[pressure_pattern_.diagonal[i]] += product(0, 0);
     if (twin >= 0) {
@@ -245,7 +272,7 @@ void SchurPreconditioner::add_free_quadratic_boundary(const BlockMatrix& matrix)
       const bool other_side = follows_[pattern_.columns[b]] != follows_[i];
       for (int c = 0; c < 3; ++c) n[other_side ? 1 : 0][c] += matrix.blocks[b].a[12 + c];
     }
-    const double h = 0.5 * inverse_diagonal_[i];
+    const double h = 0.5 * yield_[i] * inverse_diagonal_[i];
     const auto product = [&](int p, int q) { return h * (n[p][0] * n[q][0] + n[p][1] * n[q][1] + n[p][2] * n[q][2]); };
     double* to = push.data() + 3 * static_cast<std::size_t>(i);
     to[0] = product(0, 0), to[1] = product(1, 1), to[2] = product(0, 1);
@@ -265,47 +292,94 @@ void SchurPreconditioner::add_free_quadratic_boundary(const BlockMatrix& matrix)
   }
 }
 
-void SchurPreconditioner::update(const BlockMatrix& matrix) {
+// A resistance lets a pressure at its face push less, 1 / (1 + c s^T H s) of what the free nodes would yield.
+void SchurPreconditioner::find_yield(const std::vector<RankOne>& outlets) {
+  std::fill(yield_.begin(), yield_.end(), 1.0);
+  std::fill(z_.begin(), z_.end(), 0.0);
+  for (const auto& outlet : outlets)
+    for (std::size_t k = 0; k < outlet.nodes.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        z_[4 * static_cast<std::size_t>(outlet.nodes[k]) + c] = inverse_diagonal_[outlet.nodes[k]] * outlet.s[k][c];
+  const auto free = flows(mesh_.comm, outlets, z_);
+  for (std::size_t k = 0; k < outlets.size(); ++k)
+    for (const auto node : outlets[k].nodes) yield_[node] = 1.0 / (1.0 + outlets[k].coefficient * free[k]);
+}
+
+void SchurPreconditioner::update(const BlockMatrix& matrix, const std::vector<RankOne>& outlets) {
   extract(matrix);
+  find_free(matrix);
   factorise(matrix);
-  build_schur(matrix);
+  if (wall_) wall_->update(matrix, free_);
+  build_schur(matrix, outlets);
   check(PCSetOperators(multigrid_.get(), schur_.get(), schur_.get()));
   check(PCSetUp(multigrid_.get()));
+  velocity_outlets_ = RankOneInverse(mesh_.comm, outlets, z_.size(), [&](std::span<double> z) { times_inverse(z); });
+  if (!mesh_.quadratic)
+    diagonal_outlets_ = RankOneInverse(mesh_.comm, outlets, z_.size(), [&](std::span<double> z) { times_diagonal(z); });
+}
+
+void SchurPreconditioner::times_diagonal(std::span<double> z) const {
+  for (std::int32_t i = 0; i < pattern_.rows; ++i)
+    for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c) z[k + c] *= inverse_diagonal_[i];
+}
+
+void SchurPreconditioner::times_inverse(std::span<double> z) {
+  for (std::size_t i = 0; i < z.size(); ++i) sweep_[i] = static_cast<float>(z[i]);
+  block_kernels(isa_).ilu_solve(factors_, sweep_.data());
+  if (wall_)
+    wall_->apply(z, z);
+  else
+    std::fill(z.begin(), z.end(), 0.0);
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] += sweep_[i];
+}
+
+void SchurPreconditioner::solve_pressure(std::span<const double> rhs, std::span<double> z) {
+  double* b = nullptr;
+  check(VecGetArray(rhs_.get(), &b));
+  std::copy(rhs.begin(), rhs.end(), b);
+  check(VecRestoreArray(rhs_.get(), &b));
+  check(PCApply(multigrid_.get(), rhs_.get(), solution_.get()));
+  const double* p = nullptr;
+  check(VecGetArrayRead(solution_.get(), &p));
+  for (std::int32_t i = 0; i < pattern_.rows; ++i) halo_p_[i] = z[4 * static_cast<std::size_t>(i) + 3] = p[i];
+  check(VecRestoreArrayRead(solution_.get(), &p));
+  mesh_.halo.update(halo_p_, 1);
 }
 
 void SchurPreconditioner::apply(std::span<const double> r, std::span<double> z) {
   const std::int32_t n = pattern_.rows;
   const auto& kernels = block_kernels(isa_);
-  for (std::size_t i = 0; i < z_.size(); ++i) z_[i] = static_cast<float>(r[i]);
-  kernels.ilu_solve(factors_, z_.data());
-
-  for (std::size_t i = 0; i < z_.size(); ++i) halo_v_[i] = z_[i];
-  mesh_.halo.update(halo_v_, 4);
-  double* rhs = nullptr;
-  check(VecGetArray(rhs_.get(), &rhs));
-  kernels.multiply_rows(n, pattern_.row_begin.data(), pattern_.columns.data(), divergence_.data(), halo_v_.data(), rhs);
-  for (std::int32_t i = 0; i < n; ++i) rhs[i] = r[4 * static_cast<std::size_t>(i) + 3] - rhs[i];
-  check(VecRestoreArray(rhs_.get(), &rhs));
-  check(PCApply(multigrid_.get(), rhs_.get(), solution_.get()));
-
-  const double* p = nullptr;
-  check(VecGetArrayRead(solution_.get(), &p));
-  for (std::int32_t i = 0; i < n; ++i) halo_p_[i] = z[4 * static_cast<std::size_t>(i) + 3] = p[i];
-  check(VecRestoreArrayRead(solution_.get(), &p));
-  mesh_.halo.update(halo_p_, 1);
-  kernels.multiply_columns(n, pattern_.row_begin.data(), pattern_.columns.data(), gradient_.data(), halo_p_.data(),
-                           halo_v_.data());
-  if (mesh_.quadratic) {
-    // No diagonal stands for the mass of quadratic elements, whose corners have a negative row sum.
-    for (std::size_t i = 0; i < z_.size(); ++i) second_[i] = static_cast<float>(halo_v_[i]);
-    kernels.ilu_solve(factors_, second_.data());
+  const auto push = [&] {
+    kernels.multiply_columns(n, pattern_.row_begin.data(), pattern_.columns.data(), gradient_.data(), halo_p_.data(),
+                             second_.data());
+  };
+  const auto put = [&](const auto& value) {
     for (std::int32_t i = 0; i < n; ++i)
-      for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c) z[k + c] = z_[k + c] - second_[k + c];
+      for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c) z[k + c] = value(k + c);
+  };
+  if (mesh_.quadratic) {
+    for (std::int32_t i = 0; i < n; ++i) pressure_rhs_[i] = r[4 * static_cast<std::size_t>(i) + 3];
+    solve_pressure(pressure_rhs_, z);
+    push();
+    for (std::size_t k = 0; k < z_.size(); ++k) z_[k] = r[k] - second_[k];
+    times_inverse(z_);
+    velocity_outlets_.correct(z_);
+    put([&](std::size_t k) { return z_[k]; });
     return;
   }
-  for (std::int32_t i = 0; i < n; ++i)
-    for (std::size_t k = 4 * static_cast<std::size_t>(i), c = 0; c < 3; ++c)
-      z[k + c] = z_[k + c] - inverse_diagonal_[i] * halo_v_[k + c];
+  std::copy_n(r.begin(), z_.size(), z_.begin());
+  times_inverse(z_);
+  velocity_outlets_.correct(z_);
+  std::copy(z_.begin(), z_.end(), halo_v_.begin());
+  mesh_.halo.update(halo_v_, 4);
+  kernels.multiply_rows(n, pattern_.row_begin.data(), pattern_.columns.data(), divergence_.data(), halo_v_.data(),
+                        pressure_rhs_.data());
+  for (std::int32_t i = 0; i < n; ++i) pressure_rhs_[i] = r[4 * static_cast<std::size_t>(i) + 3] - pressure_rhs_[i];
+  solve_pressure(pressure_rhs_, z);
+  push();
+  times_diagonal(second_);
+  diagonal_outlets_.correct(second_);
+  put([&](std::size_t k) { return z_[k] - second_[k]; });
 }
 
 }  // namespace tunica::assembly

@@ -274,7 +274,8 @@ Schema<Case> Case::schema() {
                "Material directions that `tunica run` makes first, as in the file of `tunica fibres`; inlet, outer and "
                "tears may be left out after `mesh`")
       .choice("elements", &Case::elements, {{"linear", Elements::linear}, {"quadratic", Elements::quadratic}},
-              "Velocity and displacement in a tetrahedron; pressure is linear. `quadratic` gives every edge a node")
+              "Velocity and displacement in a tetrahedron; pressure is linear. `quadratic` gives every edge a node and "
+              "needs 4 elements across the lumen; `linear` needs 10 and more, and is quick on coarse meshes")
       .by_default()
       .section("fluid", &Case::fluid, fluid::Parameters::schema(), "Blood; for `fsi` and `flow`")
       .section("wall", &Case::wall, wall::Parameters::schema(), "Vessel wall; for `fsi`, `wall` and `static_wall`")

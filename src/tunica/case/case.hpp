@@ -144,7 +144,7 @@ struct Case {
   Analysis analysis;
   Boxed<MeshCase> mesh;  ///< what is meshed first, in place of `meshes`
   MeshSettings meshes;
-  Elements elements = Elements::linear;
+  Elements elements = Elements::quadratic;
   std::optional<FibreSettings> fibres;  ///< directions that are made first
   std::optional<fluid::Parameters> fluid;
   Boxed<wall::Parameters> wall;

@@ -277,8 +277,7 @@ std::string remedy_across(const Case& c) {
       c.meshes.tube ? "more `cells_around` and `cells_radial`"
                     : fmt::format("a finer mesh there (`{}size: {{elements_across: {:g}}}` of `tunica mesh`{})",
                                   c.mesh ? "mesh." : "", enough_across(c), quadratic ? "" : " and `boundary_layers`");
-  // Prestress is found and taken on linear elements alone.
-  if (quadratic || c.finds_prestress() || c.prestress_file()) return finer;
+  if (quadratic) return finer;
   return fmt::format("`elements: quadratic`, which need {:g}, or {}", geometry::enough_quadratic, finer);
 }
 

@@ -47,6 +47,7 @@ std::optional<double> steps_of(Context& context, const Entry& general) {
 
 void translate_analysis(Context& context, const PosedProblem& problem, const Entry& general, CaseKey& top) {
   const std::string source = problem.main->where() + " " + problem.main->label;
+  top.add("elements", "linear", "as the peer's");
   if (!massless(context, problem)) {
     top.add("analysis", problem.coupled() ? "fsi" : problem.solves_fluid() ? "flow" : "wall", source);
     return;

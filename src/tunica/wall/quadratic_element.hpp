@@ -3,8 +3,13 @@
 //
 // The equations are those of element.hpp without the subscale: quadratic displacement and linear pressure satisfy the
 // inf-sup condition, so that the constraint needs no stabilisation,
-//   r_a   = (N_a, rho_0 v_dot) + (grad_X N_a, P_iso - p J F^-T)
-//   r_p,a = s (l_a, g(J) + p/K).
+//   r_a   = (N_a, rho_0 v_dot) + (grad_X N_a, P_iso + (gamma c g' - p) J F^-T),   c = g(J) + p/K,
+//   r_p,a = s (l_a, c).
+//
+// The term of gamma = mu K / (mu + K) adds gamma/2 c^2 to the energy (augmented Lagrangian; Glowinski & Le Tallec
+// 1989). It vanishes with c, and r_p from it is (1 - gamma/K) of what it would be, which changes nothing. Without it
+// the momentum equation at given p knows no resistance against dilation, and the Schur complement of the pressure is
+// unbounded in thin walls.
 //
 // Gradients are linear in the element, and the forces are integrated with four points. All gradients are made up of the
 // four constant ones of the barycentric coordinates, grad N_b = sum_k slope_bk g_k. At a point the element therefore is
@@ -162,13 +167,35 @@ inline void start(const ElementState<T>& e, const T& mass, ElementVector<T>& r) 
   for (T& c : r.constraint) c = T(0.0);
 }
 
-/// pi of element.hpp: J p_vol, or -p J.
-template <bool mixed, class T, class U>
-TUNICA_INLINE T isotropic_stress(const wall::ElementState<T>& s, const T& J, const BodyOf<U>& body) {
-  if constexpr (mixed)
-    return -J * s.pressure[0];
-  else
-    return T(body.volumetric.bulk_modulus) * J * body.volumetric.unit_pressure(J);
+/// gamma of the mixed element [Pa]: shear modulus at rest and bulk modulus in series, so that gamma/K < 1.
+template <class T, class L, class U>
+TUNICA_INLINE T augmentation(const L& law, const BodyOf<U>& body) {
+  const T mu(law.shear_modulus_at_rest());
+  return mu / (T(1.0) + mu * T(body.volumetric.compressibility()));
+}
+
+/// pi of element.hpp: the Kirchhoff stress J p_vol, or J (gamma c g' - p), and its derivatives.
+template <class T>
+struct IsotropicStress {
+  T pi;        ///< [Pa]
+  T kappa;     ///< J dpi/dJ [Pa], at fixed p
+  T pressure;  ///< -1/J dpi/dp [-]
+};
+
+template <bool mixed, class T, class L, class U>
+TUNICA_INLINE IsotropicStress<T> isotropic_stress(const wall::ElementState<T>& s, const T& J, const L& law,
+                                                  const BodyOf<U>& body) {
+  const T g = body.volumetric.unit_pressure(J), slope = body.volumetric.unit_stiffness(J);
+  if constexpr (mixed) {
+    const T gamma = augmentation<T>(law, body), compressibility(body.volumetric.compressibility());
+    const T c = g + compressibility * s.pressure[0];
+    const T pi = J * (gamma * c * slope - s.pressure[0]);
+    return {pi, pi + J * J * gamma * (slope * slope + c * body.volumetric.unit_curvature(J)),
+            T(1.0) - gamma * compressibility * slope};
+  } else {
+    const T bulk(body.volumetric.bulk_modulus), pi = bulk * J * g;
+    return {pi, pi + bulk * J * J * slope, T(0.0)};
+  }
 }
 
 template <class T, class U>
@@ -211,6 +238,7 @@ struct PointTangent {
   Mat3<T> stiffness[fe::nodes][fe::nodes];
   Vec3<T> dilation[fe::nodes];  ///< V J grad_x l_a
   T slope;                      ///< s du/dx dg/dJ
+  T push;                       ///< of the pressure, times the dilation [-]
   T volume;                     ///< share of the stress-free one [m^3]
 };
 
@@ -221,7 +249,7 @@ inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, co
   for (Vec3<T>& column : row.pressure) column = zero;
   for (int q = 0; q < points; ++q) {
     const auto& point = fe::quadratic_four_points[q];
-    const Vec3<T> push = combined(tangents[q].dilation, point, a, T(-1.0));
+    const Vec3<T> push = combined(tangents[q].dilation, point, a, -tangents[q].push);
     for (int b = 0; b < fe::nodes; ++b) row.pressure[b] = row.pressure[b] + T(point.barycentric[b]) * push;
   }
   if (a >= fe::nodes) return;
@@ -272,7 +300,8 @@ inline void residual(const ElementState<T>& e, const L& law, const BodyOf<U>& bo
     const wall::ElementState<T> s = at_point(e, q, prestress);
     const Kinematics<T> k = kinematics(s);
     fe::ElementVector<T> force;
-    detail::point_forces(s, k, law, detail::isotropic_stress<mixed>(s, k.J, body), prestress.stress_of(q), force);
+    detail::point_forces(s, k, law, detail::isotropic_stress<mixed>(s, k.J, law, body).pi, prestress.stress_of(q),
+                         force);
     detail::spread(force, point, r);
     if constexpr (mixed) detail::add_constraint(s, k.J, point, body, c.constraint, r);
   }
@@ -290,16 +319,16 @@ inline void tangent(const ElementState<T>& e, const L& law, const BodyOf<U>& bod
     const auto& point = fe::quadratic_four_points[q];
     const wall::ElementState<T> s = at_point(e, q, prestress);
     const Kinematics<T> k = kinematics(s);
-    const T pi = detail::isotropic_stress<mixed>(s, k.J, body);
-    T kappa = pi;  // at fixed p
-    if constexpr (!mixed) kappa += k.J * k.J * T(body.volumetric.bulk_modulus) * body.volumetric.unit_stiffness(k.J);
+    const auto isotropic = detail::isotropic_stress<mixed>(s, k.J, law, body);
     fe::ElementVector<T> force;
-    detail::point_tangent(s, k, law, pi, kappa, c.displacement, prestress.stress_of(q), force, tangents[q].stiffness);
+    detail::point_tangent(s, k, law, isotropic.pi, isotropic.kappa, c.displacement, prestress.stress_of(q), force,
+                          tangents[q].stiffness);
     detail::spread(force, point, r);
     if constexpr (mixed) {
       detail::add_constraint(s, k.J, point, body, c.constraint, r);
       for (int a = 0; a < fe::nodes; ++a) tangents[q].dilation[a] = (s.reference.volume * k.J) * k.dN_x[a];
       tangents[q].volume = s.reference.volume;
+      tangents[q].push = isotropic.pressure;
       tangents[q].slope = T(c.constraint * c.displacement) * body.volumetric.unit_stiffness(k.J);
     }
   }

@@ -33,9 +33,12 @@ inline T strain_energy(const ElementState<T>& e, const L& law, const Body& body,
   T sum(0.0);
   for (int q = 0; q < points; ++q) {
     const wall::ElementState<T> s = at_point(e, q, prestress);
-    if constexpr (mixed)
+    if constexpr (mixed) {
+      const T J = determinant(deformation_gradient(s));
+      const T c = body.volumetric.unit_pressure(J) + body.volumetric.compressibility() * s.pressure[0];
       sum += mixed_strain_energy(s, law, body);  // without the subscale, as there is no gradient of p
-    else
+      sum += T(0.5) * s.reference.volume * detail::augmentation<T>(law, body) * c * c;
+    } else
       sum += displacement_strain_energy(s, law, body);
     if (const auto* S0 = prestress.stress_of(q)) sum += prestress_energy(s, *S0);
   }

@@ -47,6 +47,12 @@ struct VolumetricOf {
     if (energy == VolumetricEnergy::quadratic) return T(1.0);
     return T(1.0) / (J * J);
   }
+  /// d2g/dJ2 [-].
+  template <class T>
+  TUNICA_INLINE T unit_curvature(const T& J) const {
+    if (energy == VolumetricEnergy::quadratic) return T(0.0);
+    return T(energy == VolumetricEnergy::simo_taylor ? -1.0 : -2.0) / (J * J * J);
+  }
 };
 
 using Volumetric = VolumetricOf<double>;

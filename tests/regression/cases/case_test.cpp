@@ -73,7 +73,7 @@ TEST(Case, RigidTubeWithWindkessel) {
 TEST(Case, StaticWallUnderPressure) {
   const SharedFolder folder;
   const std::string text =
-      "analysis: {static_wall: {load_steps: 4}}\n"
+      "analysis: {static_wall: {load_steps: 4}}\nelements: linear\n"
       "meshes: {length_unit: m, wall: {simvascular: not_used}}\n"
       "wall: {density: 1.2 g/cm^3, material: {neo_hooke: {shear_modulus: 100 kPa, poisson_ratio: 0.45}}}\n"
       "newton: {relative_tolerance: 1e-8}\n"

@@ -15,7 +15,7 @@ constexpr double period = 0.5;  // s
 
 /// A rigid tube with a raised cosine of inflow into a Windkessel whose time constant is 0.1 s.
 std::string pulsating_case(const std::string& time) {
-  return "analysis: flow\nmeshes: {tube: {" + coarse_tube +
+  return "analysis: flow\nelements: linear\nmeshes: {tube: {" + coarse_tube +
          "}}\n"
          "fluid: {density: 1.06 g/cm^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\nboundary:\n"
          "  lumen_inlet: {flow: {table: {file: inflow.csv, time_unit: s, unit: ml/s, interpolation: spline}}}\n"

@@ -58,7 +58,7 @@ std::string wall_section(const LawCase& law, const std::string& element) {
 fs::path solve_wall(const SharedFolder& folder, const std::string& analysis, const std::string& wall,
                     const std::string& more) {
   const std::string text = "analysis: " + analysis +
-                           "\n"
+                           "\nelements: linear\n"
                            "meshes: {length_unit: m, wall: {simvascular: not_used}}\n" +
                            wall +
                            "boundary:\n"

@@ -20,7 +20,7 @@ inline const std::string coarse_tube =
 /// Pressure pulse in a compliant tube; `more` replaces or adds whole sections.
 inline std::string coupled_case(int steps, const std::string& more = "") {
   std::string text =
-      "analysis: fsi\n"
+      "analysis: fsi\nelements: linear\n"
       "meshes:\n  tube: {" +
       coarse_tube +
       ", wall_thickness: 1 mm}\n"
@@ -39,7 +39,7 @@ inline std::string coupled_case(int steps, const std::string& more = "") {
 
 /// Flow through a rigid tube into a Windkessel.
 inline std::string windkessel_case(int steps) {
-  return "analysis: flow\n"
+  return "analysis: flow\nelements: linear\n"
          "meshes: {tube: {" +
          coarse_tube +
          "}}\n"

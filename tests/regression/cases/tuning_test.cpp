@@ -30,7 +30,7 @@ const std::string asked =
 const std::string inlet = "  lumen_inlet: {flow: {table: {file: inflow.csv, time_unit: s, unit: ml/s}}}\n";
 
 std::string rigid_case(const std::string& outlets = asked) {
-  return "analysis: flow\nmeshes: {tube: {" + coarse_tube +
+  return "analysis: flow\nelements: linear\nmeshes: {tube: {" + coarse_tube +
          "}}\n"
          "fluid: {density: 1.06 g/cm^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\nboundary:\n" +
          inlet + "  lumen_wall: no_slip\n" + outlets +
@@ -38,7 +38,7 @@ std::string rigid_case(const std::string& outlets = asked) {
 }
 
 std::string compliant_case() {
-  return "analysis: fsi\nmeshes:\n  tube: {" + coarse_tube +
+  return "analysis: fsi\nelements: linear\nmeshes:\n  tube: {" + coarse_tube +
          ", wall_thickness: 1 mm}\n  interface: {lumen: lumen_wall, wall: wall_inner}\n"
          "fluid: {density: 1.06 g/cm^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
          "wall:\n  density: 1.12 g/cm^3\n  prestress: prestress/wall.vtu\n"

@@ -20,7 +20,7 @@ class ChainCommand : public Program {
       "  interface: {lumen: lumen_wall, wall: wall_inner}\n";
   static constexpr const char* rest =
       "title: Tube\n"
-      "analysis: fsi\n"
+      "analysis: fsi\nelements: linear\n"
       "fluid: {}\n"
       "fibres: {inlet: [wall_inlet, lumen_inlet], outer: wall_outer, mean_angle: 35 deg}\n"
       "wall:\n"
@@ -132,7 +132,7 @@ TEST_F(ChainCommand, KilledWhileOutletsAreTunedItComesToTheSameResult) {
   write("inflow.csv", "t,Q\n0,5\n0.2,80\n0.4,5\n0.8,5\n");
   const auto write_tuned = [&](const std::string& output) {
     write("case.yaml", std::string(tube) +
-                           "analysis: fsi\nfluid: {}\n"
+                           "analysis: fsi\nelements: linear\nfluid: {}\n"
                            "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 0.4 MPa, poisson_ratio: "
                            "0.49}}}\n"
                            "boundary:\n"
@@ -188,14 +188,14 @@ TEST_F(ChainCommand, WallLawsSideBySide) {
 
 TEST_F(ChainCommand, WhatIsWrongIsToldBeforeAnyWork) {
   write("case.yaml",
-        "analysis: fsi\n"
+        "analysis: fsi\nelements: linear\n"
         "mesh: {geometry: {parametric: {iliacs: {}}}, size: hug}\n"
         "fibres: {mean_angle: 35}\n"
         "fluid: {}\nboundary: {}\ntime: {step: 1 ms, steps: 2}\n");
   EXPECT_EQ(tunica("run case.yaml"), 2);
   for (const char* text : {"mesh.size", "fibres.mean_angle"}) expect_printed(text);
   write("case.yaml",
-        "analysis: fsi\n"
+        "analysis: fsi\nelements: linear\n"
         "mesh: {geometry: {parametric: {iliacs: {}}}, size: coarse}\n"
         "fibres: {mean_angle: 35 deg, regions: {flop: {mean_angle: 20 deg}}}\n"
         "fluid: {}\n"

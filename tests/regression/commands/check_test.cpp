@@ -28,7 +28,7 @@ class Check : public Program {
 };
 
 const std::string tube =
-    "analysis: fsi\n"
+    "analysis: fsi\nelements: linear\n"
     "meshes:\n"
     "  tube: {radius: 5 mm, length: 20 mm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, cells_along: 4}\n"
     "  interface: {lumen: lumen_wall, wall: wall_inner}\n"
@@ -114,7 +114,7 @@ TEST_F(Check, KnowsTheOpeningsOfAMeshToCome) {
       "boundary: {lumen_inlet: {flow: 20 ml/s}, lumen_iliac: {resistance: 1e8 Pa s/m^3}, \"wall_*\": fixed}\n"
       "time: {step: 1 ms, steps: 2}\n";
   const std::string named =
-      "analysis: fsi\nmesh: {geometry: {surfaces: {lumen: lumen.stl, length_unit: mm, openings: "
+      "analysis: fsi\nelements: linear\nmesh: {geometry: {surfaces: {lumen: lumen.stl, length_unit: mm, openings: "
       "openings.csv}}, size: coarse}\n" +
       rest;
   write("case.yaml", named);
@@ -134,7 +134,7 @@ TEST_F(Check, KnowsTheOpeningsOfAMeshToCome) {
 
 TEST_F(Check, OfAMeshToComeFlowAloneTakesTheLumen) {
   const std::string rigid =
-      "analysis: flow\nmesh: {geometry: {parametric: {}}, size: coarse}\n"
+      "analysis: flow\nelements: linear\nmesh: {geometry: {parametric: {}}, size: coarse}\n"
       "fluid: {}\n"
       "boundary: {lumen_inlet: {flow: 90 ml/s}, lumen_wall: no_slip, \"lumen_*\": {resistance: 4e8 Pa s/m^3}}\n"
       "time: {step: 1 ms, steps: 2}\n";

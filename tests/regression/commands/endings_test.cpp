@@ -20,7 +20,7 @@ class Endings : public Program {
  protected:
   void write_case(int steps, const std::string& output = "every: 2, checkpoint_every: 2",
                   const std::string& boundary = conditions) const {
-    write("case.yaml", fmt::format("analysis: flow\n"
+    write("case.yaml", fmt::format("analysis: flow\nelements: linear\n"
                                    "meshes: {{tube: {{radius: 5 mm, length: 2 cm, cells_around: 8, cells_radial: 1, "
                                    "cells_along: 5}}}}\n"
                                    "fluid: {{}}\noutput: {{{}}}\n{}time: {{step: 1 ms, steps: {}}}\n",
@@ -223,7 +223,7 @@ class ChainEndings : public Endings {
                       "  tube: {{radius: 5 mm, length: 20 mm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, "
                       "cells_along: 4}}\n"
                       "  interface: {{lumen: lumen_wall, wall: wall_inner}}\n"
-                      "analysis: fsi\nfluid: {{}}\n"
+                      "analysis: fsi\nelements: linear\nfluid: {{}}\n"
                       "wall: {{density: 1100 kg/m^3, material: {{neo_hooke: {{young_modulus: 0.4 MPa, poisson_ratio: "
                       "0.49}}}}}}\n"
                       "boundary:\n"

@@ -50,7 +50,7 @@ TEST_F(FibresCommand, WhatItWritesIsTheFibreFrameOfARun) {
   const std::string frame = "fibre_frame: {mesh: {e1: e1, e2: e2}}";
   ASSERT_NE(read("meshes.yaml").find(frame), std::string::npos) << read("meshes.yaml");
   write("case.yaml",
-        "analysis: fsi\n" + read("meshes.yaml") +
+        "analysis: fsi\nelements: linear\n" + read("meshes.yaml") +
             "fluid: {}\n"
             "wall:\n  density: 1100 kg/m^3\n  " +
             frame +

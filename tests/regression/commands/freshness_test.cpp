@@ -30,24 +30,25 @@ class Freshness : public Program {
     fs::create_directories(folder_ / "a");
     write("a/q.csv", "t,Q\n0,5\n0.2,80\n0.4,5\n0.8,5\n");
     write("a/case.yaml",
-          "analysis: flow\nmeshes: {tube: {radius: 5 mm, length: 2 cm, cells_around: 8, cells_radial: 1, "
+          "analysis: flow\nelements: linear\nmeshes: {tube: {radius: 5 mm, length: 2 cm, cells_around: 8, "
+          "cells_radial: 1, "
           "cells_along: 5}}\nfluid: {}\n" +
               std::string(table) + "  lumen_wall: no_slip\n" + more);
   }
   /// Blood and wall of a tube with all stages but outlets.
   void write_coupled(const std::string& stages) const {
     fs::create_directories(folder_ / "a");
-    write(
-        "a/case.yaml",
-        fmt::format("title: Tube\nanalysis: fsi\nmeshes: {{tube: {}, interface: {{lumen: lumen_wall, wall: "
-                    "wall_inner}}}}\nfluid: {{}}\n"
-                    "wall:\n  density: 1100 kg/m^3\n  material: {{neo_hooke: {{young_modulus: 0.4 MPa, poisson_ratio: "
-                    "0.49}}}}\n"
-                    "boundary:\n  lumen_inlet: {{flow: 20 ml/s}}\n  lumen_outlet: {{resistance: 5e8 Pa s/m^3}}\n"
-                    "  \"wall_*\": fixed\n  wall_outer: {{support: {{stiffness: 1e7 N/m^3}}}}\n"
-                    "time: {{step: 1 ms, steps: 3, rho_infinity: 0.2}}\noutput: {{every: 1}}\n",
-                    tube) +
-            stages);
+    write("a/case.yaml",
+          fmt::format(
+              "title: Tube\nanalysis: fsi\nelements: linear\nmeshes: {{tube: {}, interface: {{lumen: lumen_wall, wall: "
+              "wall_inner}}}}\nfluid: {{}}\n"
+              "wall:\n  density: 1100 kg/m^3\n  material: {{neo_hooke: {{young_modulus: 0.4 MPa, poisson_ratio: "
+              "0.49}}}}\n"
+              "boundary:\n  lumen_inlet: {{flow: 20 ml/s}}\n  lumen_outlet: {{resistance: 5e8 Pa s/m^3}}\n"
+              "  \"wall_*\": fixed\n  wall_outer: {{support: {{stiffness: 1e7 N/m^3}}}}\n"
+              "time: {{step: 1 ms, steps: 3, rho_infinity: 0.2}}\noutput: {{every: 1}}\n",
+              tube) +
+              stages);
   }
   static constexpr const char* prestress =
       "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n";

@@ -72,7 +72,7 @@ TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
 
   // The case file of the mesh stage says the same as that of `tunica mesh`, and its result serves any case.
   write("out/mesh/step.yaml",
-        "analysis: fsi\n" + read("out/mesh/meshes.yaml") +
+        "analysis: fsi\nelements: linear\n" + read("out/mesh/meshes.yaml") +
             "fluid: {}\nwall: {density: 1120 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: "
             "0.49}}}\n"
             "boundary:\n  lumen_inlet: {flow: {value: 100 ml/s, ramp_time: 50 ms}}\n"

@@ -20,7 +20,7 @@ class Ownership : public Program {
  protected:
   static constexpr const char* tube =
       "title: Tube\n"
-      "analysis: fsi\n"
+      "analysis: fsi\nelements: linear\n"
       "meshes:\n"
       "  tube: {radius: 5 mm, length: 20 mm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, cells_along: 4}\n"
       "  interface: {lumen: lumen_wall, wall: wall_inner}\n"

@@ -18,7 +18,8 @@ class Readers : public Program {
   /// A case of blood and wall in a tube, with other results.
   void write_tube_case(const std::string& output) const {
     write("case.yaml",
-          "analysis: fsi\nmeshes:\n  tube: {radius: 5 mm, length: 2 cm, wall_thickness: 1 mm, cells_around: 8, "
+          "analysis: fsi\nelements: linear\nmeshes:\n  tube: {radius: 5 mm, length: 2 cm, wall_thickness: 1 mm, "
+          "cells_around: 8, "
           "cells_radial: 1, cells_along: 4, cells_through_wall: 1}\n"
           "  interface: {lumen: lumen_wall, wall: wall_inner}\nfluid: {}\n"
           "wall: {density: 1120 kg/m^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.49}}}\n"
@@ -67,7 +68,8 @@ TEST_F(Readers, VolumesThatClaimMoreThanTheyHold) {
                       "NumberOfCells=\"1\"></Piece></UnstructuredGrid></VTKFile>\n",
                       points));
     write("case.yaml",
-          "analysis: flow\nmeshes: {length_unit: mm, lumen: {simvascular: sv}}\nfluid: {}\nboundary: {wall: no_slip}\n"
+          "analysis: flow\nelements: linear\nmeshes: {length_unit: mm, lumen: {simvascular: sv}}\nfluid: {}\nboundary: "
+          "{wall: no_slip}\n"
           "time: {step: 1 ms, steps: 2}\n");
     expect_refused("check case.yaml", "sv/mesh-complete.mesh.vtu:2: cannot be read");
   }

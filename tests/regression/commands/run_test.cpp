@@ -14,7 +14,7 @@ class RunCommand : public Program {
  protected:
   void write_case(const std::string& more) const {
     std::ofstream(folder_ / "case.yaml")
-        << "analysis: flow\n"
+        << "analysis: flow\nelements: linear\n"
            "meshes: {tube: {radius: 5 mm, length: 2 cm, cells_around: 8, cells_radial: 1, cells_along: 5}}\n"
            "fluid: {}\n"
            "output: {every: 100, checkpoint_every: 100}\n"

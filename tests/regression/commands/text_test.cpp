@@ -9,7 +9,7 @@ namespace tunica::test {
 namespace {
 
 const std::string flow_case =
-    "analysis: flow\n"
+    "analysis: flow\nelements: linear\n"
     "meshes: {tube: {radius: 5 mm, length: 2 cm, cells_around: 8, cells_radial: 1, cells_along: 5}}\n"
     "fluid: {}\n"
     "boundary: {lumen_inlet: {flow: 5 ml/s}, lumen_outlet: {pressure: 0 Pa}, lumen_wall: no_slip}\n"
@@ -100,7 +100,7 @@ TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWorkOrServeEverywhere) {
 
   // The same in a case of several stages, for which a table says what faces there will be.
   const std::string staged =
-      "analysis: fsi\n"
+      "analysis: fsi\nelements: linear\n"
       "mesh: {geometry: {surfaces: {lumen: lumen.stl, length_unit: mm, openings: o.csv}}, size: {edge: 8 mm}}\n"
       "fluid: {}\nwall: {density: 1 g/cm^3, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: 0.4}}}\n"
       "boundary: {lumen_inlet: {flow: 50 ml/s}, lumen_outlet: {resistance: 1e8 Pa s/m^3}, \"wall_*\": fixed, "
@@ -121,7 +121,8 @@ TEST_F(Text, NamesOfOpeningsAreRefusedBeforeAnyWorkOrServeEverywhere) {
   EXPECT_EQ(tunica("mesh mesh.yaml"), 0) << printed();
   EXPECT_TRUE(fs::exists(folder_ / "mesh/lumen/mesh-surfaces/lumen_L. iliac außen.vtp"));
   write("case.yaml",
-        "analysis: flow\nmeshes: {length_unit: mm, lumen: {simvascular: mesh/lumen}}\nfluid: {}\nboundary: "
+        "analysis: flow\nelements: linear\nmeshes: {length_unit: mm, lumen: {simvascular: mesh/lumen}}\nfluid: "
+        "{}\nboundary: "
         "{lumen_inlet: {flow: "
         "50 ml/s}, lumen_L. iliac außen: {resistance: 1e8 Pa s/m^3}, lumen_wall: no_slip}\ntime: {step: 1 ms, steps: "
         "1}\n");

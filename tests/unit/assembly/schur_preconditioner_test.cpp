@@ -26,7 +26,7 @@ TEST(SchurPreconditioner, NamesTheNodeOfASingularBlockOnEveryRank) {
   }
   SchurPreconditioner preconditioner(mesh, pattern, choose_isa());
   try {
-    preconditioner.update(matrix);
+    preconditioner.update(matrix, {});
     ADD_FAILURE() << "no error";
   } catch (const SolverError& error) {
     EXPECT_NE(std::string(error.what()).find("(1, 1, 1) m"), std::string::npos) << error.what();

@@ -112,7 +112,7 @@ struct Solution {
 
 Solution solve(FsiSystem& system, int outlet_count, double tolerance) {
   assembly::SchurPreconditioner preconditioner(system.mesh, system.pattern, system.isa);
-  preconditioner.update(system.matrix);
+  preconditioner.update(system.matrix, {});
   const auto b = system.right_hand_side(preconditioner.scale());
   const auto outlets = system.outlets(outlet_count);
   assembly::LinearSolver solver(system.mesh, system.pattern, system.isa, {.tolerance = tolerance});
@@ -198,7 +198,7 @@ TEST(LinearSystem, PreconditionerIsLinearAndRepeatable) {
   FsiSystem system(MPI_COMM_WORLD);
   system.assemble_tangent();
   assembly::SchurPreconditioner preconditioner(system.mesh, system.pattern, system.isa);
-  preconditioner.update(system.matrix);
+  preconditioner.update(system.matrix, {});
   const std::size_t n = at(system.mesh.owned_nodes);
   const auto& d = preconditioner.scale();
   std::vector<double> r1(n), r2(n), both(n), z1(n), z2(n), again(n), z(n);
@@ -218,7 +218,7 @@ TEST(LinearSystem, PreconditionerIsLinearAndRepeatable) {
     size = std::max(size, d[k] * std::abs(z[k]));
   }
   EXPECT_LE(parallel::global_max(MPI_COMM_WORLD, error), 1e-5 * parallel::global_max(MPI_COMM_WORLD, size));
-  preconditioner.update(system.matrix);  // a new set-up from the same matrix
+  preconditioner.update(system.matrix, {});  // a new set-up from the same matrix
   preconditioner.apply(r1, again);
   EXPECT_EQ(z1, again);
 }

@@ -91,7 +91,8 @@ std::string joined(const std::vector<std::string>& lines) {
 TEST(Translate, WritesAFlow) {
   const auto translation = translated(flow({}));
   EXPECT_EQ(plain(translation),
-            "title: solver.xml\nanalysis: flow\nmeshes:\n  length_unit: cm\n  lumen:\n    volume: m/volume.vtu\n"
+            "title: solver.xml\nelements: linear\nanalysis: flow\nmeshes:\n  length_unit: cm\n  lumen:\n    volume: "
+            "m/volume.vtu\n"
             "    faces:\n      in: m/in.vtp\n      out: m/out.vtp\n      side: m/side.vtp\nfluid:\n"
             "  density: 1.06 g/cm^3\n  viscosity:\n    newtonian:\n      viscosity: 0.04 dyn s/cm^2\nboundary:\n"
             "  in:\n    flow:\n      value: -10 cm^3/s\n      positive: outflow\n      profile: flat\n"

@@ -47,7 +47,7 @@ double closure(const fs::path& results) {
 
 std::string case_text() {
   std::string text =
-      "analysis: fsi\n"
+      "analysis: fsi\nelements: linear\n"
       "meshes:\n"
       "  length_unit: mm\n  lumen: {simvascular: mesh/lumen}\n"
       "  wall:\n    simvascular: mesh/wall\n    region_array: region\n"
@@ -129,7 +129,7 @@ TEST(PostDissection, QuadraticElementsHaveTheTearsOfTheRun) {
 
 std::string rigid_case_text() {
   std::string text =
-      "analysis: flow\nmeshes: {length_unit: mm, lumen: {simvascular: mesh/lumen}}\n"
+      "analysis: flow\nelements: linear\nmeshes: {length_unit: mm, lumen: {simvascular: mesh/lumen}}\n"
       "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
       "boundary:\n  lumen_inlet: {flow: {value: 200 ml/s, ramp_time: 60 ms}}\n  lumen_wall: no_slip\n";
   for (const char* name : outlets) text += fmt::format("  lumen_{}: {{resistance: 4e8 Pa s/m^3}}\n", name);

@@ -16,7 +16,7 @@ constexpr double mu = 0.004, density = 1060;
 
 std::string tube(double radius, double length, int k, int along) {
   return fmt::format(
-      "analysis: flow\n"
+      "analysis: flow\nelements: linear\n"
       "meshes: {{tube: {{radius: {} m, length: {} m, cells_around: {}, cells_radial: {}, cells_along: {}}}}}\n"
       "fluid: {{density: 1060 kg/m^3, backflow_stabilisation: 0, viscosity: {{newtonian: {{viscosity: 4 mPa s}}}}}}\n",
       radius, length, 8 * k, 2 * k, along);
