@@ -19,6 +19,7 @@ inline CLI::Validator some_name() {
 void add_check(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_converge(CLI::App& app);
+void add_export(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_image(CLI::App& app);

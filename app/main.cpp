@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   tunica::app::add_check(app);
   tunica::app::add_compare(app);
   tunica::app::add_converge(app);
+  tunica::app::add_export(app);
   tunica::app::add_fibres(app);
   tunica::app::add_fit(app);
   tunica::app::add_image(app);

@@ -2,7 +2,8 @@
 //
 // Every input is read in a child process, thousands in one. An input fails that ends the child (a signal, a report of a
 // sanitizer, exit()), throws anything else than InputError or SolverError, takes longer than `longest` or memory beyond
-// `most_memory`. It is kept, the child is started again behind it, and the exit code is 1 in the end.
+// `most_memory`. It is kept (in tunica_fuzz of the folder for temporary files, unless FOLDER is named), the child is
+// started again behind it, and the exit code is 1 in the end.
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -60,7 +61,7 @@ struct Entry {
 };
 
 struct Options {
-  fs::path corpus, keep = fs::current_path();
+  fs::path corpus, keep = fs::temp_directory_path() / "tunica_fuzz";
   std::uint64_t runs = 1000, seed = 1, first = 0;
   bool leaks_each = false;
 };
@@ -195,6 +196,7 @@ std::string how_it_ended(int status) {
 
 void keep(const std::vector<Entry>& corpus, const Options& options, std::uint64_t number, const std::string& why) {
   const auto in = input(corpus, options.seed, number);
+  fs::create_directories(options.keep);
   const auto file = options.keep / ("failed_" + std::string(target_name) + "_" + in.kind + "_" +
                                     std::to_string(options.seed) + "_" + std::to_string(number) + in.ending);
   write(file, in.bytes);

@@ -24,12 +24,30 @@ namespace {
 
 // magic | version | length of the header | header (JSON) | fields | hash of header and fields. Little endian.
 constexpr char magic[8] = {'t', 'u', 'n', 'i', 'c', 'a', 'C', 'P'};
-constexpr std::uint64_t version = 1;
+// Version 1 has no end pressures.
+constexpr std::uint64_t version = 2;
 constexpr std::uint64_t longest_header = 1 << 24;
 
-std::vector<std::vector<double> coupling::State::*> nodal_fields() {
+struct NodalField {
+  std::vector<double> coupling::State::*values;
+  int components;
+};
+
+/// In the order of the file.
+std::vector<NodalField> nodal_fields(std::uint64_t of_version) {
   using coupling::State;
-  return {&State::velocity_pressure, &State::acceleration, &State::displacement, &State::displacement_rate};
+  std::vector<NodalField> fields{{&State::velocity_pressure, 4},
+                                 {&State::acceleration, 4},
+                                 {&State::displacement, 4},
+                                 {&State::displacement_rate, 4}};
+  if (of_version > 1) fields.push_back({&State::end_pressure, 1});
+  return fields;
+}
+
+std::uint64_t bytes_of_node(std::uint64_t of_version) {
+  std::uint64_t numbers = 0;
+  for (const auto& field : nodal_fields(of_version)) numbers += static_cast<std::uint64_t>(field.components);
+  return numbers * sizeof(double);
 }
 
 parallel::NodeOrder node_order(const distributed::DistributedMesh& mesh) {
@@ -103,17 +121,21 @@ class Reader {
   }
   std::string header() {
     char found[8];
-    std::uint64_t v = 0, length = 0;
+    std::uint64_t length = 0;
     read(found, sizeof found);
     if (std::memcmp(found, magic, sizeof magic) != 0) damaged(file_, "is no tunica checkpoint");
-    read(&v, sizeof v);
-    if (v != version) damaged(file_, fmt::format("has format version {}, this tunica reads version {}", v, version));
+    read(&version_, sizeof version_);
+    if (version_ < 1 || version_ > version)
+      damaged(file_,
+              fmt::format("has format version {}, this tunica reads version {} and earlier ones", version_, version));
     read(&length, sizeof length);
     if (length > longest_header) damaged(file_, "the checkpoint is damaged");
     std::string text(length, '\0');
     read(text.data(), length);
     return text;
   }
+  /// Of the format, once the header is read.
+  std::uint64_t format_version() const { return version_; }
   void finish() {
     const std::uint64_t expected = hash_.value();
     std::uint64_t found = 0;
@@ -127,6 +149,7 @@ class Reader {
   fs::path file_;
   std::ifstream stream_;
   files::Hash hash_;
+  std::uint64_t version_ = 0;
 };
 
 class Writer {
@@ -164,8 +187,9 @@ void write_checkpoint(const fs::path& file, const distributed::DistributedMesh& 
     writer.emplace(file);
     writer->header(header_of(checkpoint, mesh.global_nodes).dump());
   });
-  for (const auto field : nodal_fields()) {
-    const auto values = parallel::gather_by_original_id(node_order(mesh), checkpoint.state.*field, 4);
+  for (const auto& field : nodal_fields(version)) {
+    const auto values =
+        parallel::gather_by_original_id(node_order(mesh), checkpoint.state.*field.values, field.components);
     parallel::on_root(mesh.comm, [&] { writer->write(values.data(), values.size() * sizeof(double)); });
   }
   parallel::on_root(mesh.comm, [&] { writer->finish(); });
@@ -179,10 +203,10 @@ std::string damage_of(const fs::path& file) {
         !header["nodes"].is_number_unsigned())
       return "the header is damaged";
     std::vector<char> block(1 << 16);
-    constexpr std::uint64_t bytes_of_node = 4 * 4 * sizeof(double);
+    const std::uint64_t of_node = bytes_of_node(reader.format_version());
     const std::uint64_t nodes = header["nodes"], size = fs::file_size(file);
-    if (nodes > size / bytes_of_node) return "the checkpoint is not complete";
-    for (std::uint64_t left = nodes * bytes_of_node; left > 0;) {
+    if (nodes > size / of_node) return "the checkpoint is not complete";
+    for (std::uint64_t left = nodes * of_node; left > 0;) {
       const std::uint64_t part = std::min<std::uint64_t>(left, block.size());
       reader.read(block.data(), part);
       left -= part;
@@ -198,9 +222,10 @@ std::string damage_of(const fs::path& file) {
 
 namespace {
 
-/// Reads header and nodal fields. `take(header)` is called on all ranks.
+/// Reads header and nodal fields. `take(header)` is called on all ranks. Returns whether the end pressures stood there;
+/// where not, those of the last step stand for them.
 template <class Take>
-void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::uint64_t mesh_hash,
+bool read(const fs::path& file, const distributed::DistributedMesh& mesh, std::uint64_t mesh_hash,
           coupling::State& state, const std::string& remedy, const Take& take) {
   std::optional<Reader> reader;
   std::string header = parallel::on_root(mesh.comm, [&] {
@@ -215,6 +240,8 @@ void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
     return text;
   });
   parallel::broadcast(mesh.comm, header);
+  std::uint64_t of_version = reader ? reader->format_version() : 0;
+  parallel::broadcast(mesh.comm, of_version);
   parallel::agree(mesh.comm, [&] {
     try {
       take(json::parse(header));
@@ -223,14 +250,19 @@ void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
     }
   });
   const bool root = parallel::rank(mesh.comm) == 0;
-  std::vector<double> field(root ? 4 * static_cast<std::size_t>(mesh.global_nodes) : 0);
-  for (const auto member : nodal_fields()) {
+  std::vector<double> field;
+  for (const auto& [member, components] : nodal_fields(of_version)) {
+    field.resize(root ? static_cast<std::size_t>(components * mesh.global_nodes) : 0);
     parallel::on_root(mesh.comm, [&] { reader->read(field.data(), field.size() * sizeof(double)); });
     auto& values = state.*member;
-    parallel::scatter_by_original_id(node_order(mesh), field, values, 4);
-    mesh.halo.update(values, 4);
+    parallel::scatter_by_original_id(node_order(mesh), field, values, components);
+    mesh.halo.update(values, components);
   }
   parallel::on_root(mesh.comm, [&] { reader->finish(); });
+  if (of_version > 1) return true;
+  for (std::size_t i = 0; i < state.end_pressure.size(); ++i)
+    state.end_pressure[i] = state.velocity_pressure[4 * i + 3];
+  return false;
 }
 
 }  // namespace
@@ -238,7 +270,8 @@ void read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
 Checkpoint read_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const coupling::State& start,
                            std::uint64_t mesh_hash, const std::string& remedy) {
   Checkpoint c{.state = start, .position = {}};
-  read(file, mesh, mesh_hash, c.state, remedy, [&](const json& header) { take_header(header, c, file.string()); });
+  c.has_end_pressure =
+      read(file, mesh, mesh_hash, c.state, remedy, [&](const json& header) { take_header(header, c, file.string()); });
   return c;
 }
 

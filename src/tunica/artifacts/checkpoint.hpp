@@ -17,6 +17,7 @@ struct Checkpoint {
   coupling::State state;
   StepGrid::Position position;
   std::uint64_t case_hash = 0, mesh_hash = 0;
+  bool has_end_pressure = true;  ///< false of one that an early version wrote: State::end_pressure is a guess
 };
 
 /// Writes `checkpoint` as an AtomicFile, so that an interruption, also of the machine, leaves either the whole file or

@@ -36,7 +36,10 @@ const wall::LawParameters& material_of(const wall::Parameters& wall, const std::
 }  // namespace
 
 OutputFields::OutputFields(const coupling::Problem& problem, const case_file::Case& c)
-    : problem_(problem), units_(c.output.units), dynamic_(!std::holds_alternative<case_file::StaticWall>(c.analysis)) {
+    : problem_(problem),
+      units_(c.output.units),
+      dynamic_(!std::holds_alternative<case_file::StaticWall>(c.analysis)),
+      at_end_(c.output.instant == case_file::Instant::end) {
   if (c.solves_fluid()) find_wall_triangles(c);
   const auto& regions = problem.mesh().regions;
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -145,10 +148,9 @@ void OutputFields::compute_shear_stress(const State& state) {
   mesh.halo.update(shear_, 3);
 }
 
-void OutputFields::compute_wall_stress(const State& state) {
+void OutputFields::compute_wall_stress(const coupling::FieldsView& fields) {
   const auto& mesh = problem_.mesh();
   const coupling::WallModel& model = problem_.wall_model();
-  const auto fields = problem_.fields_with_pressure(state);
   for (auto& stress : stress_) {
     const auto region = static_cast<std::size_t>(stress.region);
     for (std::size_t e = 0; e < stress.von_mises.size(); ++e) {
@@ -164,6 +166,16 @@ void OutputFields::compute_wall_stress(const State& state) {
 }
 
 void OutputFields::write(distributed::ResultsWriter& writer, std::int64_t step, double time, const State& state) {
+  if (!at_end_) return write_instant(writer, step, time, state, problem_.fields_with_pressure(state));
+  const State end = coupling::with_end_pressure(state);
+  write_instant(writer, step, time, end,
+                {.velocity_pressure = end.velocity_pressure.data(),
+                 .acceleration = end.acceleration.data(),
+                 .displacement = end.displacement.data()});
+}
+
+void OutputFields::write_instant(distributed::ResultsWriter& writer, std::int64_t step, double time, const State& state,
+                                 const coupling::FieldsView& wall) {
   const auto& input = problem_.input();
   const auto per_si = [](const std::string& unit, const config::Dimension& d) {
     return 1 / config::unit_factor(unit, d);
@@ -202,7 +214,7 @@ void OutputFields::write(distributed::ResultsWriter& writer, std::int64_t step, 
                      .region = static_cast<std::int32_t>(r)});
   }
   std::vector<distributed::CellArray> cells;
-  if (input.wall) compute_wall_stress(state);
+  if (input.wall) compute_wall_stress(wall);
   for (const auto& s : stress_) {
     cells.push_back({.name = fmt::format("von Mises stress [{}]", units_.stress),
                      .region = s.region,

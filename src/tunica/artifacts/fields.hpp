@@ -15,8 +15,8 @@ namespace tunica::artifacts {
 /// lumen: velocity, pressure, displacement (of the mesh, when it moves), wall shear stress (zero off the wall);
 /// wall: velocity (in dynamics), displacement, pressure (mixed element), and for each element the von Mises stress, the
 /// largest principal stress, and the Cauchy stress along the mean direction of each family of fibres that the law of
-/// its region has. Pressures and stresses of the wall are those at t_{n-1+alpha_f}, where the equations are met, all
-/// else belongs to t_n.
+/// its region has. Pressures and stresses of the wall are those of the instant that the case chooses, t_{n-1+alpha_f}
+/// or t_n, all else belongs to t_n.
 class OutputFields {
  public:
   /// `problem` must outlive this.
@@ -37,11 +37,13 @@ class OutputFields {
   template <class Add>
   void add_at_nodes(const WallTriangle& triangle, const fe::Gradients<double>& shape, const double* velocity,
                     Add add) const;
-  void compute_wall_stress(const coupling::State& state);
+  void compute_wall_stress(const coupling::FieldsView& fields);
+  void write_instant(distributed::ResultsWriter& writer, std::int64_t step, double time, const coupling::State& state,
+                     const coupling::FieldsView& wall);
 
   const coupling::Problem& problem_;
   case_file::OutputUnits units_;
-  bool dynamic_ = true;
+  bool dynamic_ = true, at_end_ = false;
   std::vector<WallTriangle> wall_triangles_;
   std::vector<double> shear_;  ///< [local node][3], Pa
   struct RegionStress {

@@ -368,8 +368,8 @@ void Histories::append_points_and_forces(const StepHistory& step) {
 
 void Histories::append(const StepHistory& step, const std::vector<bc::Outlet>& outlets) {
   if (faces_) {
-    std::vector<double> line{per_si_.time * step.evaluated};
-    for (const auto& face : step.record.faces)
+    std::vector<double> line{per_si_.time * (step.faces_at_end ? step.time : step.evaluated)};
+    for (const auto& face : step.faces_at_end ? *step.faces_at_end : step.record.faces)
       line.insert(line.end(),
                   {per_si_.flow * face.flow, per_si_.pressure * face.mean_pressure, per_si_.area * face.area});
     faces_->append(step.step, line);

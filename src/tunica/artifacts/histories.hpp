@@ -77,10 +77,11 @@ struct StepHistory {
   coupling::StepRecord record;
   coupling::StepReport report;
   std::vector<coupling::ProbeRecord> points{};  ///< at the end of the step, in the order of the case
+  std::optional<std::vector<coupling::FaceRecord>> faces_at_end{};  ///< for faces.csv, in the place of `record.faces`
 };
 
 /// The histories of a run, in the units of the case:
-/// - faces.csv: flow, mean pressure and area of each lumen face;
+/// - faces.csv: flow, mean pressure and area of each lumen face, at the instant that the case chooses;
 /// - inflows.csv: prescribed and actual flow of each face with a `flow`;
 /// - outlets.csv: flow, pressure and stored pressure of each resistance and RCR outlet, at the end of the step;
 /// - balance.csv: volumes, energies, powers, and what is left of the balances of mass and interface power;

@@ -113,8 +113,8 @@ LoadedMesh read_or_generate(const case_file::MeshSettings& m, const WallArrays& 
   if ((m.tube || m.gmsh) && !(arrays.face_arrays.empty() && arrays.face_files.empty()))
     throw InputError("boundary." + (arrays.face_arrays.empty() ? arrays.face_files.begin()->first
                                                                : arrays.face_arrays.begin()->first),
-                     "names a point array, which only SimVascular folders bring",
-                     "give a constant, or the wall as `simvascular`");
+                     "names a point array, which Gmsh's meshes and generated tubes do not bring",
+                     "give a constant, or the wall in SimVascular's files (`simvascular`, or `volume` and `faces`)");
   if (m.tube) return {mesh::tube(with_areas_of_circles(*m.tube)), {}};
   if (!m.gmsh) return read_regions(m, arrays);
   mesh_io::GmshOptions options{.metres_per_unit = m.metres(), .regions = {}, .fields = arrays.fields};

@@ -34,6 +34,15 @@ struct TimeScheme {
     return old_rate + (velocity_at_alpha_f - old_rate) / alpha_m;
   }
 
+  /// Velocity at t_{n+1} for which the displacement there is `new_displacement`.
+  double velocity_towards(double old_displacement, double old_rate, double old_velocity,
+                          double new_displacement) const {
+    const double at_balance = at_alpha_m(old_rate, new_rate(old_displacement, old_rate, new_displacement));
+    return at_end(old_velocity, at_balance);
+  }
+  /// Value at t_{n+1} of what is `at_balance` at t_{n+alpha_f} and linear in the step.
+  double at_end(double old_value, double at_balance) const { return old_value + (at_balance - old_value) / alpha_f; }
+
   // Derivatives with respect to v_{n+1}.
   double acceleration_per_unknown() const { return alpha_m / (gamma * dt); }
   double velocity_per_unknown() const { return alpha_f; }

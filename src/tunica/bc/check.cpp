@@ -103,6 +103,9 @@ class Checker {
       problems_.push_back({"boundary." + name,
                            fmt::format("{} is not a condition for a {} face", bc::name(condition), kind(face->field)),
                            fmt::format("use one of: {}", allowed(face->field))});
+    } else if (face->field == Field::lumen && held_axes(condition) != Axes{} && !coupled_.contains(name)) {
+      problems_.push_back({fmt::format("boundary.{}.{}.fixed", name, bc::name(condition)),
+                           "is given, but the face is one of the lumen", "remove it: it holds faces of walls"});
     }
   }
 
@@ -144,10 +147,8 @@ class Checker {
     std::array<bool, 3> held{false, false, false};
     for (const auto& [name, condition] : boundary_.conditions) {
       if (const auto* face = find(name); !face || face->field != Field::wall) continue;
-      if (const auto* fixed = std::get_if<Fixed>(&condition)) {
-        if (fixed->along_normal()) return;
-        for (int i = 0; i < 3; ++i) held[i] = held[i] || fixed->axes()[i];
-      }
+      if (const auto* fixed = std::get_if<Fixed>(&condition); fixed && fixed->along_normal()) return;
+      for (std::size_t i = 0; i < 3; ++i) held[i] = held[i] || held_axes(condition)[i];
       if (std::holds_alternative<Symmetry>(condition)) return;
       if (const auto* support = std::get_if<Support>(&condition); support && support->holds()) return;
     }

@@ -23,7 +23,8 @@ constexpr std::array<Traits, std::variant_size_v<Condition>> traits = {{{"no_sli
                                                                         {"free", false, true, false},
                                                                         {"support", false, true, false},
                                                                         {"symmetry", true, true, true},
-                                                                        {"profile", true, false, true}}};
+                                                                        {"profile", true, false, true},
+                                                                        {"displacement", false, true, false}}};
 
 }  // namespace
 
@@ -31,6 +32,14 @@ std::string_view name(const Condition& condition) { return traits[condition.inde
 bool fits_lumen(const Condition& condition) { return traits[condition.index()].lumen; }
 bool fits_wall(const Condition& condition) { return traits[condition.index()].wall; }
 bool prescribes_velocity(const Condition& condition) { return traits[condition.index()].velocity; }
+
+Axes held_axes(const Condition& condition) {
+  if (const auto* fixed = std::get_if<Fixed>(&condition)) return fixed->axes();
+  if (const auto* pressure = std::get_if<Pressure>(&condition)) return pressure->fixed;
+  if (const auto* traction = std::get_if<Traction>(&condition)) return traction->fixed;
+  if (const auto* moved = std::get_if<Displacement>(&condition)) return moved->directions;
+  return {};
+}
 
 Waveform inflow(const Flow& flow) {
   const auto* table = std::get_if<TableSource>(&flow.course.source);

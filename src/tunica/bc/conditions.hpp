@@ -24,6 +24,9 @@ class Schema;
 
 namespace tunica::bc {
 
+/// Some of the axes x, y, z.
+using Axes = std::array<bool, 3>;
+
 // --- lumen faces ------------------------------------------------------------------------------------------------
 
 struct NoSlip {
@@ -54,6 +57,7 @@ Waveform inflow(const Flow& flow);
 struct Traction {
   Vec3<double> vector{};      ///< Pa
   WaveformInput course{1.0};  ///< dimensionless
+  Axes fixed{};               ///< no displacement along these, beside the load; wall faces alone
   static config::Schema<Traction> schema();
 };
 
@@ -85,6 +89,7 @@ struct Symmetry {
 struct Pressure {
   WaveformInput pressure;  ///< Pa
   bool follower = true;
+  Axes fixed{};  ///< no displacement along these, beside the load; wall faces alone
   static config::Schema<Pressure> schema();
 };
 
@@ -102,6 +107,15 @@ struct Fixed {
     return {directions[all] || directions[x], directions[all] || directions[y], directions[all] || directions[z]};
   }
   static config::Schema<Fixed> schema();
+};
+
+/// u = value * course(t) at all nodes of a wall face, along `directions`; the others are free. At t_{n+1}, as
+/// prescribed velocities; statics multiplies it by its load factor.
+struct Displacement {
+  Vec3<double> value{};       ///< m
+  WaveformInput course{1.0};  ///< dimensionless
+  Axes directions{true, true, true};
+  static config::Schema<Displacement> schema();
 };
 
 struct Free {
@@ -133,16 +147,19 @@ struct Support {
 };
 
 using Condition = std::variant<NoSlip, Velocity, Flow, Pressure, Traction, Resistance, Rcr, Fixed, Free, Support,
-                               Symmetry, VelocityProfile>;
+                               Symmetry, VelocityProfile, Displacement>;
 
 /// Exactly one of the keys no_slip, velocity, flow, pressure, traction, resistance, rcr, fixed, free, support,
-/// symmetry, profile: `outlet: {rcr: {...}}`; those without required keys may stand as a bare name, `wall_outer: free`.
+/// symmetry, profile, displacement: `outlet: {rcr: {...}}`; those without required keys may stand as a bare name,
+/// `wall_outer: free`.
 config::Schema<Condition> condition_schema();
 
 /// Name as in the case file: "no_slip", "velocity", ...
 std::string_view name(const Condition& condition);
 bool fits_lumen(const Condition& condition);
 bool fits_wall(const Condition& condition);
+/// Axes along which the displacement of a wall face is given, be it zero; those of a normal direction are none.
+Axes held_axes(const Condition& condition);
 /// Does it prescribe the velocity (and so leave the pressure open)?
 bool prescribes_velocity(const Condition& condition);
 

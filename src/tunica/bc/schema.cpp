@@ -158,6 +158,8 @@ Schema<SupportValue> support_value_schema(const config::Dimension& due, const co
       .shorthand("value");
 }
 
+constexpr const char* fixed_beside_load = "Of a wall face: axes along which it does not move, under the load";
+
 }  // namespace
 
 Schema<NoSlip> NoSlip::schema() { return Schema<NoSlip>("no_slip", "Blood at rest at a rigid wall."); }
@@ -190,7 +192,9 @@ Schema<Traction> Traction::schema() {
       .plausible("-400 mmHg", "400 mmHg")
       .section("waveform", &Traction::course, waveform_schema(dimension::none),
                "Factor over time; constant when left out")
-      .optional();
+      .optional()
+      .any_of("fixed", &Traction::fixed, {"x", "y", "z"}, fixed_beside_load)
+      .by_default();
 }
 
 Schema<Pressure> Pressure::schema() {
@@ -198,6 +202,8 @@ Schema<Pressure> Pressure::schema() {
       .include(&Pressure::pressure, waveform_schema(dimension::pressure))
       .flag("follower", &Pressure::follower,
             "On a wall face: true follows the deformed face, false keeps the reference normal and area")
+      .by_default()
+      .any_of("fixed", &Pressure::fixed, {"x", "y", "z"}, fixed_beside_load)
       .by_default()
       .shorthand("value");
 }
@@ -242,6 +248,25 @@ Schema<Fixed> Fixed::schema() {
         if (listed > 1 && (fixed.directions[all] || fixed.directions[normal]))
           problems.add("directions", "`all` and `normal` cannot be mixed with other directions",
                        "give `all`, `normal`, or some of x, y, z");
+      });
+}
+
+Schema<Displacement> Displacement::schema() {
+  return Schema<Displacement>("displacement", "A wall face that is moved: displacement over time.")
+      .quantities("value", &Displacement::value, dimension::length, anything(), "Displacement vector x, y, z")
+      .section("waveform", &Displacement::course, waveform_schema(dimension::none),
+               "Factor over time; constant when left out")
+      .optional()
+      .any_of("directions", &Displacement::directions, {"x", "y", "z"},
+              "Axes along which the face is moved; it is free along the others")
+      .by_default()
+      .check([](const Displacement& c, Problems& problems) {
+        for (int i = 0; i < 3; ++i)
+          if (!c.directions[static_cast<std::size_t>(i)] && c.value[i] != 0)
+            problems.add("value", fmt::format("moves the face along {}, which `directions` leaves free", "xyz"[i]),
+                         "give 0 there, or name the axis in `directions`");
+        if (c.directions == Axes{})
+          problems.add("directions", "names no axis", "name at least one, or use the condition `free`");
       });
 }
 
@@ -328,7 +353,8 @@ Schema<Condition> condition_schema() {
       .alternative(Free::schema())
       .alternative(Support::schema())
       .alternative(Symmetry::schema())
-      .alternative(VelocityProfile::schema());
+      .alternative(VelocityProfile::schema())
+      .alternative(Displacement::schema());
 }
 
 }  // namespace tunica::bc

@@ -150,6 +150,11 @@ void check_case(const Case& c, Problems& problems) {
   if (c.time && c.time->cycles && !c.solves_fluid())
     problems.add("time.cycles", fmt::format("is given, but `analysis: {}` has no openings to look at", analysis),
                  "give `steps`");
+  for (const auto& [face, condition] : c.boundary)
+    if (c.prestress && std::holds_alternative<bc::Displacement>(condition))
+      problems.add("boundary." + face,
+                   "moves the face, and the section `prestress` looks for a wall that nothing moves",
+                   "hold the face by `fixed`, or remove `prestress`");
   if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
 }
 
@@ -179,6 +184,7 @@ std::vector<Problem> check_waveforms(const Case& c) {
         if (profile->table) const bc::PointTable table(*profile);
       }
       if (const auto* traction = std::get_if<bc::Traction>(&condition)) check(bc::make_waveform(traction->course));
+      if (const auto* moved = std::get_if<bc::Displacement>(&condition)) check(bc::make_waveform(moved->course));
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
     }
@@ -240,6 +246,10 @@ Schema<OutputSettings> OutputSettings::schema() {
       .by_default()
       .flag("forces", &OutputSettings::forces,
             "Record the force of the blood on each face that it sticks to in forces.csv")
+      .by_default()
+      .choice("instant", &OutputSettings::instant, {{"balance", Instant::balance}, {"end", Instant::end}},
+              "Instant of pressures and stresses, and of faces.csv: `balance` within the step, where the equations are "
+              "met; `end` the end of the step, as svMultiPhysics and svFSI write it")
       .by_default();
 }
 

@@ -121,6 +121,12 @@ struct ProbePoint {
   std::optional<mesh::RegionKind> region;  ///< none: the lumen, or the wall where there is no lumen
 };
 
+/// Which instant of a step of generalised-alpha results show. Velocity and displacement are those of its end anyway.
+enum class Instant {
+  balance,  ///< t_{n+alpha_f}, where the equations are met
+  end,      ///< t_{n+1}
+};
+
 struct OutputSettings {
   std::filesystem::path directory;      ///< created when it does not exist
   std::int64_t every = 1;               ///< steps between two fields of the time series
@@ -128,6 +134,7 @@ struct OutputSettings {
   OutputUnits units;
   std::vector<std::pair<std::string, ProbePoint>> points;  ///< name, place
   bool forces = false;                                     ///< of the blood on the walls
+  Instant instant = Instant::balance;                      ///< of pressures, and of the flows through faces
   static config::Schema<OutputSettings> schema();
 };
 

@@ -20,6 +20,7 @@ const bc::TableSource* ending_table(const bc::Condition& condition) {
   if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) course = &velocity->course;
   if (const auto* profile = std::get_if<bc::VelocityProfile>(&condition)) course = &profile->course;
   if (const auto* traction = std::get_if<bc::Traction>(&condition)) course = &traction->course;
+  if (const auto* moved = std::get_if<bc::Displacement>(&condition)) course = &moved->course;
   const auto* table = course != nullptr ? std::get_if<bc::TableSource>(&course->source) : nullptr;
   return table != nullptr && !table->options.periodic ? table : nullptr;
 }

@@ -248,26 +248,30 @@ struct Boundaries::Builder {
     if (is_wall(index)) load.kind = c.follower ? Load::Kind::follower_pressure : Load::Kind::dead_pressure;
     load.course = waveform(c.pressure);
     b.loads_.push_back(load);
+    hold_along(index, c.fixed);
   }
   void operator()(std::size_t index, const bc::Traction& c) {
     Load load{.face = index, .kind = is_wall(index) ? Load::Kind::dead_traction : Load::Kind::lumen_traction};
     load.vector = c.vector;
     load.course = waveform(c.course);
     b.loads_.push_back(load);
+    hold_along(index, c.fixed);
   }
+  void operator()(std::size_t index, const bc::Displacement& c) { hold_along(index, c.directions); }
   void operator()(std::size_t index, const bc::Resistance& c) { b.outlets_.push_back({index, c}); }
   void operator()(std::size_t index, const bc::Rcr& c) { b.outlets_.push_back({index, c}); }
   void operator()(std::size_t index, const bc::Fixed& c) {
+    hold_along(index, c.axes());
+    if (!c.along_normal()) return;
     const auto& face = mesh.faces[index];
     const Vec3<double> normal = mean_normal(mesh, face);
-    for_each_node(face, [&](std::int32_t wall_node) {
-      Held& h = held[mesh.host[wall_node]];
-      if (c.along_normal()) {
-        h.direction(normal);
-        return;
-      }
+    for_each_node(face, [&](std::int32_t wall_node) { held[mesh.host[wall_node]].direction(normal); });
+  }
+  void hold_along(std::size_t index, const bc::Axes& axes) {
+    for_each_node(mesh.faces[index], [&](std::int32_t wall_node) {
       for (int i = 0; i < 3; ++i)
-        if (c.axes()[i]) h.direction({{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
+        if (axes[static_cast<std::size_t>(i)])
+          held[mesh.host[wall_node]].direction({{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
     });
   }
   void operator()(std::size_t, const bc::Free&) {}

@@ -82,9 +82,9 @@ void Monitors::find_sticking_faces() {
     for (auto& [node, share] : face.nodes) share = 1.0 / faces_of[node];
 }
 
-void Monitors::faces(StepRecord& record) const {
+std::vector<std::pair<std::string, Monitors::FaceSums>> Monitors::face_sums(const FieldsView& f) const {
   const auto& mesh = problem_.mesh();
-  const FieldsView f = problem_.fields();
+  std::vector<std::string> names;
   std::vector<double> sums;
   for (const auto& face : mesh.faces) {
     if (mesh.regions[face.region].kind != RegionKind::lumen) continue;
@@ -103,24 +103,43 @@ void Monitors::faces(StepRecord& record) const {
       area += fluid::area(x);
       sweep += dot(fluid::nodal_area_vector(x), w[0] + w[1] + w[2]);
     }
-    record.faces.push_back({face.name, 0, 0, 0, {}});
+    names.push_back(face.name);
     sums.insert(sums.end(), {flow, force, area, sweep});
   }
   parallel::global_sum(mesh.comm, sums);
-  for (std::size_t k = 0; k < record.faces.size(); ++k) {
-    const double* s = sums.data() + 4 * k;
-    record.faces[k].flow = s[0];
-    record.faces[k].area = s[2];
-    record.faces[k].mean_pressure = s[1] / s[2];
-    record.volume_rate += s[3];
-    record.mass_residual += s[0];
-    record.largest_flow = std::max(record.largest_flow, std::abs(s[0]));
+  std::vector<std::pair<std::string, FaceSums>> faces;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const double* sum = sums.data() + 4 * k;
+    faces.emplace_back(names[k], FaceSums{sum[0], sum[1], sum[2], sum[3]});
+  }
+  return faces;
+}
+
+void Monitors::faces(StepRecord& record) const {
+  for (const auto& [name, sums] : face_sums(problem_.fields())) {
+    record.faces.push_back(sums.record(name));
+    record.volume_rate += sums.sweep;
+    record.mass_residual += sums.flow;
+    record.largest_flow = std::max(record.largest_flow, std::abs(sums.flow));
   }
   for (const auto& prescribed : problem_.prescribed_flows())
     for (auto& face : record.faces)
-      if (face.name == mesh.faces[prescribed.face].name) face.prescribed = prescribed.outward;
+      if (face.name == problem_.mesh().faces[prescribed.face].name) face.prescribed = prescribed.outward;
   record.mass_residual += record.volume_rate;
   record.largest_flow = std::max(record.largest_flow, std::abs(record.volume_rate));
+}
+
+std::vector<FaceRecord> Monitors::faces_at_end(const State& state) const {
+  const State end = with_end_pressure(state);
+  std::vector<double> position = end.displacement;
+  for (std::int32_t i = 0; i < problem_.mesh().nodes(); ++i)
+    for (int c = 0; c < 3; ++c) position[at(i) + static_cast<std::size_t>(c)] += problem_.mesh().points[i][c];
+  const FieldsView fields{.position = position.data(),
+                          .velocity_pressure = end.velocity_pressure.data(),
+                          .mesh_velocity = end.displacement_rate.data()};
+  std::vector<FaceRecord> faces;
+  for (const auto& [name, sums] : face_sums(fields)) faces.push_back(sums.record(name));
+  return faces;
 }
 
 /// Of one element of the lumen.

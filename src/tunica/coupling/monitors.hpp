@@ -10,7 +10,7 @@
 
 namespace tunica::coupling {
 
-/// A face of the lumen at t_{n+alpha_f}.
+/// A face of the lumen at t_{n+alpha_f}; of Monitors::faces_at_end at t_{n+1}.
 struct FaceRecord {
   std::string name;
   double flow = 0;                     ///< out of the lumen, relative to the moving face [m^3/s]
@@ -63,11 +63,20 @@ class Monitors {
   /// For the step of size `dt` [s] that `problem` last accepted; 0 for a static equilibrium. All sums are added in rank
   /// order. Collective.
   StepRecord evaluate(double dt) const;
+  /// The lumen faces at the time of `state`, which the step has led to. Collective.
+  std::vector<FaceRecord> faces_at_end(const State& state) const;
 
  private:
   enum class NodeKind : char { inner, opening, interface, rim, wall };
 
   void find_sticking_faces();
+  /// Flow, force of the pressure, area, sweep: rate of the volume that the face passes over.
+  struct FaceSums {
+    double flow, force, area, sweep;
+    FaceRecord record(const std::string& name) const { return {name, flow, force / area, area, {}}; }
+  };
+  /// Of the lumen faces, in the order of the mesh. Collective.
+  std::vector<std::pair<std::string, FaceSums>> face_sums(const FieldsView& fields) const;
   void faces(StepRecord& record) const;
   struct Power;
   Power linear_power(const distributed::Region& region, std::int32_t element, double dt) const;

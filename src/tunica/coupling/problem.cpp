@@ -66,6 +66,7 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
       isa_(assembly::choose_isa()),
       pattern_(assembly::make_pattern(mesh)),
       boundaries_(mesh, pattern_, input.boundary),
+      moved_faces_(mesh, input.boundary.conditions),
       follows_wall_(mesh.nodes(), 0),
       matrix_(pattern_),
       solver_(mesh, pattern_, isa_, krylov_settings(input.linear)) {
@@ -151,6 +152,7 @@ State Problem::initial_state() const {
   const std::size_t n = at(mesh_.nodes());
   for (auto* field : {&state.velocity_pressure, &state.acceleration, &state.displacement, &state.displacement_rate})
     field->assign(n, 0.0);
+  state.end_pressure.assign(static_cast<std::size_t>(mesh_.nodes()), 0.0);
   state.outlets = boundaries_.make_outlets();
   return state;
 }
@@ -532,6 +534,11 @@ StepReport Problem::advance(State& state, double dt) {
   ++next.step;
   prescribed_flows_ = flows_to_prescribe(state, next.time, scheme);
   boundaries_.prescribe(next.time, next.velocity_pressure);
+  moved_faces_.at(next.time, [&](std::int32_t node, int axis, double displacement) {
+    const std::size_t k = at(node) + static_cast<std::size_t>(axis);
+    next.velocity_pressure[k] = scheme.velocity_towards(state.displacement[k], state.displacement_rate[k],
+                                                        state.velocity_pressure[k], displacement);
+  });
   if (mesh_.quadratic) remember_start(state, next);
   follow_velocity(state, next, scheme);
   // Until the first increment the mesh goes on as it moved; the interface is moved by its velocity.
@@ -552,6 +559,9 @@ StepReport Problem::advance(State& state, double dt) {
     next.outlets[k].commit(dt, old_flow + (outlet_flows_[k] - old_flow) / scheme.alpha_f);
   }
   interpolate_pressure(next);
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    next.end_pressure[static_cast<std::size_t>(i)] =
+        scheme.at_end(state.end_pressure[static_cast<std::size_t>(i)], next.velocity_pressure[at(i) + 3]);
   state = std::move(next);
   accepted_step_ = state.step;
   return report;
@@ -567,11 +577,17 @@ StepReport Problem::solve_static(State& state, double factor) {
   if (input_.fluid) throw InputError("analysis", "statics has no flow", "solve the wall alone, or use a time step");
   const Instant instant{std::nullopt, state.time, factor};
   State next = state;
+  moved_faces_.at(state.time, [&](std::int32_t node, int axis, double displacement) {
+    next.displacement[at(node) + static_cast<std::size_t>(axis)] = factor * displacement;
+  });
+  synchronise_twins(next);
   evaluate_fields(state, next, instant);
   StepReport report = newton(state, next, instant);
   if (!report.converged) return report;
   last_instant_ = instant;
   interpolate_pressure(next);
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    next.end_pressure[static_cast<std::size_t>(i)] = next.velocity_pressure[at(i) + 3];
   state = std::move(next);
   return report;
 }

@@ -14,6 +14,7 @@
 #include "tunica/coupling/boundaries.hpp"
 #include "tunica/coupling/lumen_groups.hpp"
 #include "tunica/coupling/mesh_motion.hpp"
+#include "tunica/coupling/moved_faces.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/state.hpp"
 #include "tunica/distributed/element_nodes.hpp"
@@ -165,6 +166,7 @@ class Problem {
   assembly::Isa isa_;
   assembly::BlockPattern pattern_;
   Boundaries boundaries_;
+  MovedFaces moved_faces_;
   std::vector<LumenGroup> lumen_groups_;
   struct Wall;
   std::unique_ptr<Wall> wall_;      ///< null without one

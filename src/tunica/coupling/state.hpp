@@ -16,6 +16,8 @@ struct State {
   double time = 0.0;                      ///< s
   double dt = 0.0;                        ///< size of the step that led here; 0 at the start [s]
   std::vector<double> velocity_pressure;  ///< v at t_n [m/s]; p, collocated at t_{n-1+alpha_f} [Pa]
+  /// p at t_n [local node] [Pa]: that for which the pressure is linear in every step.
+  std::vector<double> end_pressure;
   std::vector<double> acceleration;       ///< dv/dt at t_n, at fixed mesh node [m/s^2]
   std::vector<double> displacement;       ///< u at t_n [m]
   std::vector<double> displacement_rate;  ///< du/dt at t_n [m/s]
@@ -23,5 +25,8 @@ struct State {
   double residual_reference = 0.0;        ///< largest initial residual norm so far: what "small" is measured against
   double velocity_reference = 0.0;        ///< largest norm of the nodal velocities so far, for adaptive steps [m/s]
 };
+
+/// `state` with its pressures at t_n in the place of those at t_{n-1+alpha_f}.
+State with_end_pressure(State state);
 
 }  // namespace tunica::coupling

@@ -7,6 +7,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -18,6 +19,7 @@
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/lumen_side.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
+#include "tunica/mesh_io/volume_arrays.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
 
 namespace tunica::mesh_io {
@@ -106,9 +108,7 @@ std::vector<Index> counted(Index n) {
   return numbers;
 }
 
-void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& part, mesh::RegionKind kind,
-                  double metres_per_unit) {
-  vtkNew<vtkUnstructuredGrid> grid;
+void set_shape(vtkUnstructuredGrid* grid, const mesh::MeshData& data, const Part& part, double metres_per_unit) {
   grid->SetPoints(points(data, part.nodes, metres_per_unit));
   vtkNew<vtkCellArray> cells;
   cells->AllocateExact(std::ssize(part.elements), 4 * std::ssize(part.elements));
@@ -118,6 +118,12 @@ void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& 
     cells->InsertNextCell(4, corners);
   }
   grid->SetCells(VTK_TETRA, cells);
+}
+
+void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& part, mesh::RegionKind kind,
+                  double metres_per_unit) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_shape(grid, data, part, metres_per_unit);
   vtkNew<vtkIntArray> region;
   region->SetName("region");
   region->SetNumberOfValues(std::ssize(part.elements));
@@ -197,6 +203,32 @@ std::vector<std::string> write_simvascular(const fs::path& folder, const mesh::M
   std::vector<std::string> names;
   for (const auto& [name, end] : part.region_ends) names.push_back(name);
   return names;
+}
+
+void write_volume_array(const fs::path& file, const mesh::MeshData& data, mesh::RegionKind kind, double metres_per_unit,
+                        const VolumeArray& array) {
+  const Part part = make_part(data, kind);
+  const bool of_nodes = array.of == VolumeArray::Of::nodes;
+  const auto& entities = of_nodes ? part.nodes : part.elements;
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_shape(grid, data, part, metres_per_unit);
+  vtkSmartPointer<vtkDataArray> values;
+  if (array.whole_numbers)
+    values = vtkSmartPointer<vtkIntArray>::New();
+  else
+    values = vtkSmartPointer<vtkDoubleArray>::New();
+  values->SetName(array.name.c_str());
+  values->SetNumberOfComponents(array.components);
+  values->SetNumberOfTuples(std::ssize(entities));
+  for (Index i = 0; i < std::ssize(entities); ++i)
+    values->SetTuple(i, array.values.data() + entities[static_cast<std::size_t>(i)] * array.components);
+  if (of_nodes)
+    grid->GetPointData()->AddArray(values);
+  else
+    grid->GetCellData()->AddArray(values);
+  grid->GetPointData()->AddArray(id_array("GlobalNodeID", counted(std::ssize(part.nodes))));
+  grid->GetCellData()->AddArray(id_array("GlobalElementID", counted(std::ssize(part.elements))));
+  write<vtkXMLUnstructuredGridWriter>(file, grid.Get());
 }
 
 }  // namespace tunica::mesh_io

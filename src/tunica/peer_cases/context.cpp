@@ -51,9 +51,9 @@ std::string Context::path(const Entry& entry) {
   std::error_code none;
   if (!fs::exists(there, none)) warnings.push_back(fmt::format("{}: {} is not there", entry.where(), there.string()));
   if (fs::path(entry.value).is_absolute()) return yaml_text(entry.value);
-  const fs::path from_case = fs::absolute(there, none)
-                                 .lexically_normal()
-                                 .lexically_proximate(fs::absolute(case_folder, none).lexically_normal());
+  const fs::path folder = case_folder.empty() ? "." : case_folder;  // which has no absolute path of its own
+  const fs::path from_case =
+      fs::absolute(there, none).lexically_normal().lexically_proximate(fs::absolute(folder, none).lexically_normal());
   return yaml_text(from_case.generic_string());
 }
 

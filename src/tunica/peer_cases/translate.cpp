@@ -114,6 +114,7 @@ void translate_output(Context& context, const Entry& general, CaseKey& top) {
   for (const auto& [theirs, ours] : increments)
     if (context.number(general, theirs).value_or(0) >= 1)
       output.add(ours, context.quantity(*general.find(theirs), ""), general.find(theirs)->where());
+  output.add("instant", "end", fmt::format("{} writes the ends of steps", context.peer()));
   const UnitSystem& units = context.units;
   auto& names = output.section("units", fmt::format("--units {}", units.name));
   names.add("length", units.length, "");

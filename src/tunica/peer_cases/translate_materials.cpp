@@ -71,7 +71,15 @@ void translate_viscosity(Context& context, const Entry& properties, CaseKey& flu
 
 // --- wall ---------------------------------------------------------------------------------------------------------
 
-enum class LawKind { neo_hooke, st_venant_kirchhoff, mooney_rivlin, hgo, guccione };
+enum class LawKind {
+  neo_hooke,
+  st_venant_kirchhoff,
+  mooney_rivlin,
+  hgo,
+  guccione,
+  holzapfel_ogden,
+  unsplit_holzapfel_ogden
+};
 
 struct LawName {
   const char* name;
@@ -79,8 +87,7 @@ struct LawName {
   const char* physics;  ///< of one that tunica does not have
 };
 
-constexpr const char *holzapfel_ogden = "the law of Holzapfel and Ogden for heart muscle",
-                     *modified_stvk = "the modified law of St. Venant and Kirchhoff",
+constexpr const char *modified_stvk = "the modified law of St. Venant and Kirchhoff",
                      *full_invariants = "HGO with fibres that follow the strain as it is (HGO-ma)",
                      *network = "a law as a neural network";
 
@@ -105,15 +112,15 @@ const LawName law_names[] = {
     {"m-stVK", {}, modified_stvk},
     {"modified-stVK", {}, modified_stvk},
     {"modified-stVenantKirchhoff", {}, modified_stvk},
-    {"HO", {}, holzapfel_ogden},
-    {"Holzapfel", {}, holzapfel_ogden},
-    {"HO-d", {}, holzapfel_ogden},
-    {"HO-decoupled", {}, holzapfel_ogden},
-    {"HolzapfelOgden", {}, holzapfel_ogden},
-    {"HO_ma", {}, holzapfel_ogden},
-    {"HO-ma", {}, holzapfel_ogden},
-    {"HO-modified", {}, holzapfel_ogden},
-    {"HolzapfelOgden-ModifiedAnisotropy", {}, holzapfel_ogden},
+    {"HO", LawKind::holzapfel_ogden, ""},
+    {"Holzapfel", LawKind::holzapfel_ogden, ""},
+    {"HO-d", LawKind::holzapfel_ogden, ""},
+    {"HO-decoupled", LawKind::holzapfel_ogden, ""},
+    {"HolzapfelOgden", LawKind::holzapfel_ogden, ""},
+    {"HO_ma", LawKind::unsplit_holzapfel_ogden, ""},
+    {"HO-ma", LawKind::unsplit_holzapfel_ogden, ""},
+    {"HO-modified", LawKind::unsplit_holzapfel_ogden, ""},
+    {"HolzapfelOgden-ModifiedAnisotropy", LawKind::unsplit_holzapfel_ogden, ""},
     {"LS", {}, "the law of Lee and Sacks"},
     {"Lee-Sacks", {}, "the law of Lee and Sacks"},
     {"CANN", {}, network},
@@ -173,21 +180,34 @@ void add_constants(Context& context, const Constants& c, CaseKey& law) {
   add_compressibility(context, c, law);
 }
 
+/// The two Fiber_direction of a mesh.
+struct Directions {
+  std::vector<double> first, second;
+  double cosine;  ///< of the angle between them; NaN where one of them is zero
+};
+
+/// None where they have not three components each.
+std::optional<Directions> read_directions(const Context& context, const std::vector<const Entry*>& entries) {
+  Directions d{read_vector(entries[0]->value, context.file.dialect).values,
+               read_vector(entries[1]->value, context.file.dialect).values, 0.0};
+  if (d.first.size() != 3 || d.second.size() != 3) return std::nullopt;
+  double fs = 0, ff = 0, ss = 0;
+  for (int i = 0; i < 3; ++i) {
+    fs += d.first[i] * d.second[i];
+    ff += d.first[i] * d.first[i];
+    ss += d.second[i] * d.second[i];
+  }
+  d.cosine = fs / std::sqrt(ff * ss);
+  return d;
+}
+
 /// The angle of the second family of fibres from the first, which is the direction e1 of the frame; none where it is
-/// not known, which is reported.
+/// not known, which translate_frame() reports of directions.
 std::optional<double> angle_of_families(Context& context, const PosedProblem& problem, const Entry& law) {
-  const auto directions = problem.wall->all("Fiber_direction");
-  if (directions.size() == 2) {
-    const auto f = read_vector(directions[0]->value, context.file.dialect).values;
-    const auto s = read_vector(directions[1]->value, context.file.dialect).values;
-    if (f.size() != 3 || s.size() != 3) return std::nullopt;
-    double fs = 0, ff = 0, ss = 0;
-    for (int i = 0; i < 3; ++i) {
-      fs += f[i] * s[i];
-      ff += f[i] * f[i];
-      ss += s[i] * s[i];
-    }
-    return std::acos(std::clamp(fs / std::sqrt(ff * ss), -1.0, 1.0));
+  const auto entries = problem.wall->all("Fiber_direction");
+  if (entries.size() == 2) {
+    const auto d = read_directions(context, entries);
+    if (d) return std::acos(std::clamp(d->cosine, -1.0, 1.0));
   }
   if (problem.wall->all("Fiber_direction_file_path").size() == 2)
     context.missing(law, "two families of fibres whose angle differs from element to element",
@@ -230,7 +250,29 @@ void translate_guccione(Context& context, const Entry& law, const Constants& c, 
   add_compressibility(context, c, section);
 }
 
-bool needs_fibres(LawKind kind) { return kind == LawKind::hgo || kind == LawKind::guccione; }
+void translate_holzapfel_ogden(Context& context, const Entry& law, const Constants& c, bool unsplit,
+                               CaseKey& material) {
+  auto& section = material.section("holzapfel_ogden", law.where() + " " + law.label + ", with f = e1, s = e2");
+  constexpr std::pair<const char*, const char*> stresses[] = {{"a", "a"},
+                                                              {"a4f", "a_f"},
+                                                              {"a4s", "a_s"},
+                                                              {"afs", "a_fs"}},
+                                                stiffenings[] = {
+                                                    {"b", "b"}, {"b4f", "b_f"}, {"b4s", "b_s"}, {"bfs", "b_fs"}};
+  for (const auto& [theirs, ours] : stresses) add_required(context, law, theirs, context.units.pressure, section, ours);
+  for (const auto& [theirs, ours] : stiffenings) add_required(context, law, theirs, "", section, ours);
+  section.add("fibre_energy", unsplit ? "unsplit" : "isochoric", fmt::format("as in {}", law.label));
+  context.changed(law,
+                  "fibres and sheets are left out as soon as they are shorter than at rest, not by the smooth "
+                  "switch 1 / (1 + exp(-k (I - 1)))");
+  add_compressibility(context, c, section);
+}
+
+/// Is it a law of the directions e1 and e2, which has no families?
+bool is_orthotropic(LawKind kind) {
+  return kind == LawKind::guccione || kind == LawKind::holzapfel_ogden || kind == LawKind::unsplit_holzapfel_ogden;
+}
+bool needs_fibres(LawKind kind) { return kind == LawKind::hgo || is_orthotropic(kind); }
 
 std::optional<LawKind> kind_of(Context& context, const Entry& properties) {
   const Entry* law = properties.find("Constitutive_model");
@@ -245,7 +287,7 @@ std::optional<LawKind> kind_of(Context& context, const Entry& properties) {
   }
   context.refuse(
       *law, fmt::format("is of the type `{}`, which {} does not have", text::printable(law->label), context.peer()),
-      "write neoHookean, stVK, Mooney-Rivlin, HGO or Guccione");
+      "write neoHookean, stVK, Mooney-Rivlin, HGO, Guccione or HolzapfelOgden");
   return std::nullopt;
 }
 
@@ -271,8 +313,10 @@ void translate_law(Context& context, const PosedProblem& problem, const DomainPa
     add_compressibility(context, *constants, section);
   } else if (*kind == LawKind::hgo) {
     translate_hgo(context, problem, *law, *constants, material);
-  } else {
+  } else if (*kind == LawKind::guccione) {
     translate_guccione(context, *law, *constants, material);
+  } else {
+    translate_holzapfel_ogden(context, *law, *constants, *kind == LawKind::unsplit_holzapfel_ogden, material);
   }
 }
 
@@ -320,36 +364,27 @@ std::vector<double> across(const std::vector<double>& v) {
   return result;
 }
 
-void translate_constant_frame(Context& context, const std::vector<const Entry*>& directions, bool guccione,
+void translate_constant_frame(Context& context, const std::vector<const Entry*>& entries, bool orthotropic,
                               CaseKey& wall) {
-  const auto f = read_vector(directions[0]->value, context.file.dialect).values;
-  auto s = read_vector(directions[1]->value, context.file.dialect).values;
-  if (f.size() != 3 || s.size() != 3)
-    return context.refuse(*directions[0], "and the next one have not three components each", "write (x, y, z)");
-  double fs = 0, ff = 0, ss = 0;
-  for (int i = 0; i < 3; ++i) {
-    fs += f[i] * s[i];
-    ff += f[i] * f[i];
-    ss += s[i] * s[i];
-  }
-  const double cosine = fs / std::sqrt(ff * ss);
-  if (!(ff > 0 && ss > 0)) return context.refuse(*directions[0], "or the next one is zero", "write directions");
-  if (guccione && std::abs(cosine) > 1e-6)
-    return context.missing(*directions[1], "fibres and sheets that are not at right angles", "correct the directions");
-  if (std::abs(cosine) > 1 - 1e-12) s = across(f);
+  auto d = read_directions(context, entries);
+  if (!d) return context.refuse(*entries[0], "and the next one have not three components each", "write (x, y, z)");
+  if (!std::isfinite(d->cosine)) return context.refuse(*entries[0], "or the next one is zero", "write directions");
+  if (orthotropic && std::abs(d->cosine) > 1e-6)
+    return context.missing(*entries[1], "fibres and sheets that are not at right angles", "correct the directions");
+  if (std::abs(d->cosine) > 1 - 1e-12) d->second = across(d->first);
   auto& frame = wall.section("fibre_frame", "").section("constant", "");
-  frame.add("e1", vector_text(f), directions[0]->where());
-  frame.add("e2", vector_text(s), directions[1]->where() + ", its part along e1 is taken off");
+  frame.add("e1", vector_text(d->first), entries[0]->where());
+  frame.add("e2", vector_text(d->second), entries[1]->where() + ", its part along e1 is taken off");
 }
 
-void translate_frame(Context& context, const PosedProblem& problem, bool guccione, CaseKey& wall) {
+void translate_frame(Context& context, const PosedProblem& problem, bool orthotropic, CaseKey& wall) {
   if (problem.wall == nullptr) return;
   const auto directions = problem.wall->all("Fiber_direction"), files = problem.wall->all("Fiber_direction_file_path");
   if (directions.size() + files.size() != 2 || (directions.size() == 1))
     return context.refuse(*problem.wall,
                           fmt::format("has {} fibre directions, the law needs two", directions.size() + files.size()),
                           "give two Fiber_direction or two Fiber_direction_file_path");
-  if (!directions.empty()) return translate_constant_frame(context, directions, guccione, wall);
+  if (!directions.empty()) return translate_constant_frame(context, directions, orthotropic, wall);
   auto& frame = wall.section("fibre_frame", "").section("mesh", "");
   frame.add("e1", "fibre_1", files[0]->where());
   frame.add("e2", "fibre_2", files[1]->where() + ", its part along e1 is taken off");
@@ -407,13 +442,13 @@ void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top)
       fmt::format("{}: {}", problem.coupled() ? context.source(*first.properties, "Equation") : problem.main->where(),
                   mixed ? "ustruct" : "struct"));
   translate_density(context, problem, first, wall);
-  bool fibres = false, guccione = false;
+  bool fibres = false, orthotropic = false;
   for (const DomainPart& part : problem.walls) {
     const Entry* law = part.properties->find("Constitutive_model");
     for (const LawName& known : law_names)
       if (law != nullptr && known.law && law->label == known.name) {
         fibres |= needs_fibres(*known.law);
-        guccione |= *known.law == LawKind::guccione;
+        orthotropic |= is_orthotropic(*known.law);
       }
     refuse_wall_viscosity(context, part);
     for (const char* key : {"Momentum_stabilization_coefficient", "Continuity_stabilization_coefficient"})
@@ -434,7 +469,7 @@ void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top)
              fmt::format("materials jump, as in {}", context.peer()));
   }
   if (fibres)
-    translate_frame(context, problem, guccione, wall);
+    translate_frame(context, problem, orthotropic, wall);
   else if (problem.wall != nullptr)
     for (const char* key : {"Fiber_direction", "Fiber_direction_file_path"})
       for (const Entry* entry : problem.wall->all(key))

@@ -13,17 +13,20 @@
 #include "tunica/wall/materials/dfd.hpp"
 #include "tunica/wall/materials/fung.hpp"
 #include "tunica/wall/materials/hgo.hpp"
+#include "tunica/wall/materials/holzapfel_ogden.hpp"
 #include "tunica/wall/materials/mooney_rivlin.hpp"
 #include "tunica/wall/materials/neo_hooke.hpp"
 #include "tunica/wall/materials/st_venant_kirchhoff.hpp"
 
 namespace tunica::wall {
 
-using Law = std::variant<NeoHooke, MooneyRivlin, StructureTensorLaw, Fung, DiscreteFibreLaw, StVenantKirchhoff>;
+using Law =
+    std::variant<NeoHooke, MooneyRivlin, StructureTensorLaw, Fung, DiscreteFibreLaw, StVenantKirchhoff, HolzapfelOgden>;
 
 /// Parameters of one of the laws, as the case file gives them.
-using LawParameters = std::variant<NeoHookeParameters, MooneyRivlinParameters, HgoParameters, GohParameters,
-                                   FungParameters, DfdParameters, StVenantKirchhoffParameters>;
+using LawParameters =
+    std::variant<NeoHookeParameters, MooneyRivlinParameters, HgoParameters, GohParameters, FungParameters,
+                 DfdParameters, StVenantKirchhoffParameters, HolzapfelOgdenParameters>;
 
 /// Prepares a law; the parameters must have passed the checks of their schema. Throws InputError when a rule of fibre
 /// directions cannot keep its tolerance.

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <fstream>
 
 #include "shared_folder.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/files/hash.hpp"
 #include "tunica/mesh/generate.hpp"
 
 namespace tunica::artifacts {
@@ -33,6 +36,7 @@ Checkpoint sample(const distributed::DistributedMesh& mesh) {
     for (const auto id : mesh.original_ids)
       for (int k = 0; k < 4; ++k) field->push_back(std::sin(1.0 + 4.0 * static_cast<double>(id) + k + 1e5 * shift));
   }
+  for (const auto id : mesh.original_ids) s.end_pressure.push_back(std::cos(1.0 + static_cast<double>(id)));
   s.outlets.emplace_back("z_max", bc::Rcr{.proximal = 1, .capacitance = 2, .distal = 3});
   s.outlets[0].commit(0.1, 0.3);
   return c;
@@ -42,6 +46,7 @@ coupling::State blank(const Checkpoint& like) {
   coupling::State s;
   for (auto* field : {&s.velocity_pressure, &s.acceleration, &s.displacement, &s.displacement_rate})
     field->assign(like.state.velocity_pressure.size(), 0.0);
+  s.end_pressure.assign(like.state.end_pressure.size(), 0.0);
   s.outlets.emplace_back("z_max", bc::Rcr{.proximal = 1, .capacitance = 2, .distal = 3});
   return s;
 }
@@ -63,6 +68,8 @@ TEST_F(CheckpointTest, GivesBackEveryBit) {
   EXPECT_EQ(a.acceleration, b.acceleration);
   EXPECT_EQ(a.displacement, b.displacement);
   EXPECT_EQ(a.displacement_rate, b.displacement_rate);
+  EXPECT_EQ(a.end_pressure, b.end_pressure);
+  EXPECT_TRUE(read.has_end_pressure);
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.dt, b.dt);
@@ -115,11 +122,37 @@ TEST_F(CheckpointTest, NoticesDamage) {
   EXPECT_NE(refusal(good.substr(0, good.size() / 2)).find("not complete"), std::string::npos);
   EXPECT_NE(refusal("something else altogether").find("is no tunica checkpoint"), std::string::npos);
   std::string newer = good;
-  newer[8] = 2;
-  EXPECT_NE(refusal(newer).find("format version 2"), std::string::npos);
+  newer[8] = 3;
+  EXPECT_NE(refusal(newer).find("format version 3"), std::string::npos);
   EXPECT_NE(refusal("").find("not complete"), std::string::npos);
   EXPECT_NE(refusal(good + "x").find("goes on after its end"), std::string::npos);
   EXPECT_NE(refusal(flipped).find("do that instead"), std::string::npos);
+}
+
+// Version 1 had no pressures at the ends of steps.
+TEST_F(CheckpointTest, ReadsTheFirstVersion) {
+  write_checkpoint(file, mesh, written);
+  if (parallel::rank(MPI_COMM_WORLD) == 0) {
+    const std::string now = slurp(file);
+    const auto nodes = static_cast<std::size_t>(mesh.global_nodes);
+    std::string early = now.substr(0, now.size() - 8 * nodes - 8);
+    early[8] = 1;
+    std::uint64_t header = 0;
+    std::memcpy(&header, early.data() + 16, sizeof header);
+    files::Hash hash;
+    hash.add(early.data(), 24);
+    hash.add(early.data() + 24, header);
+    hash.add(early.data() + 24 + header, early.size() - 24 - header);
+    const std::uint64_t value = hash.value();
+    early.append(reinterpret_cast<const char*>(&value), sizeof value);
+    std::ofstream(file, std::ios::binary) << early;
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(damage_of(file), "");
+  const Checkpoint read = read_checkpoint(file, mesh, blank(written), 42, "another");
+  EXPECT_FALSE(read.has_end_pressure);
+  EXPECT_EQ(read.state.displacement_rate, written.state.displacement_rate);
+  EXPECT_EQ(read.state.end_pressure[1], written.state.velocity_pressure[4 + 3]);
 }
 
 TEST_F(CheckpointTest, EveryBitCounts) {

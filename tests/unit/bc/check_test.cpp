@@ -91,6 +91,14 @@ TEST(Check, StaticWallNeedsSupport) {
   EXPECT_TRUE(check_boundary(boundary).empty());
 }
 
+TEST(Conditions, HeldAxesAreThoseOfWhateverGivesTheDisplacement) {
+  EXPECT_EQ(held_axes(Fixed{}), (Axes{true, true, true}));
+  EXPECT_EQ(held_axes(Pressure{.fixed = {true, false, false}}), (Axes{true, false, false}));
+  EXPECT_EQ(held_axes(Traction{.fixed = {false, true, false}}), (Axes{false, true, false}));
+  EXPECT_EQ(held_axes(Displacement{.directions = {false, true, true}}), (Axes{false, true, true}));
+  EXPECT_EQ(held_axes(Support{}), Axes{});
+}
+
 TEST(Conditions, NamesFollowTheVariant) {
   EXPECT_EQ(name(NoSlip{}), "no_slip");
   EXPECT_EQ(name(Velocity{}), "velocity");
@@ -102,6 +110,8 @@ TEST(Conditions, NamesFollowTheVariant) {
   EXPECT_EQ(name(Fixed{}), "fixed");
   EXPECT_EQ(name(Free{}), "free");
   EXPECT_EQ(name(Support{}), "support");
+  EXPECT_EQ(name(VelocityProfile{}), "profile");
+  EXPECT_EQ(name(Displacement{}), "displacement");
   EXPECT_TRUE(fits_lumen(Pressure{}) && fits_wall(Pressure{}) && !fits_wall(Flow{}) && !fits_lumen(Support{}));
 }
 

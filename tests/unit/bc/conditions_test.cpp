@@ -55,6 +55,22 @@ TEST(ConditionSchema, BareNames) {
   EXPECT_EQ(as<Fixed>("fixed").axes(), (std::array<bool, 3>{true, true, true}));
 }
 
+TEST(ConditionSchema, FacesThatAreMoved) {
+  const auto moved = as<Displacement>("{displacement: {value: [1 mm, 0 mm, 0 mm], directions: [x]}}");
+  EXPECT_EQ(moved.value[0], 1e-3);
+  EXPECT_EQ(moved.directions, (Axes{true, false, false}));
+  EXPECT_EQ(as<Displacement>("{displacement: {value: [1 mm, 0 mm, 0 mm]}}").directions, (Axes{true, true, true}));
+  EXPECT_TRUE(contains(refusal("{displacement: {value: [1 mm, 1 mm, 0 mm], directions: [x]}}"),
+                       "moves the face along y, which `directions` leaves free"));
+  EXPECT_TRUE(contains(refusal("{displacement: {value: [0 mm, 0 mm, 0 mm], directions: []}}"), "names no axis"));
+}
+
+TEST(ConditionSchema, LoadsOnFacesThatAreHeldAlongAxes) {
+  EXPECT_EQ(as<Pressure>("{pressure: {value: 1 kPa, fixed: [x, y]}}").fixed, (Axes{true, true, false}));
+  EXPECT_EQ(as<Pressure>("{pressure: 1 kPa}").fixed, Axes{});
+  EXPECT_EQ(as<Traction>("{traction: {value: [0 Pa, 0 Pa, 1 Pa], fixed: [x]}}").fixed, (Axes{true, false, false}));
+}
+
 TEST(ConditionSchema, Fixed) {
   EXPECT_EQ(as<Fixed>("{fixed: {directions: [z]}}").axes(), (std::array<bool, 3>{false, false, true}));
   EXPECT_EQ(as<Fixed>("{fixed: [x, z]}").axes(), (std::array<bool, 3>{true, false, true}));

@@ -267,6 +267,55 @@ TEST(Translate, WritesLawsWithFibres) {
   EXPECT_TRUE(has(refused(wall(hgo, pressure)), "has 0 fibre directions"));
 }
 
+TEST(Translate, WritesTheLawOfHolzapfelAndOgden) {
+  const std::string mesh = "<Fiber_direction>(0, 0, 2)</Fiber_direction><Fiber_direction>(1, 0, 0)</Fiber_direction>";
+  const auto with = [&](const std::string& law) {
+    return wall(std::string(elastic) + "<Constitutive_model type=\"" + law +
+                    "\"><a>590.0</a><b>8.023</b><a4f>184720</a4f><b4f>16.026</b4f><a4s>24810</a4s><b4s>11.12</b4s>"
+                    "<afs>2160</afs><bfs>11.436</bfs><k>100</k></Constitutive_model>",
+                pressure, "struct", mesh);
+  };
+  const auto translation = translated(with("HolzapfelOgden"));
+  EXPECT_TRUE(has(plain(translation),
+                  "holzapfel_ogden:\n      a: 590.0 dyn/cm^2\n      a_f: 184720 dyn/cm^2\n      a_s: 24810 dyn/cm^2\n"
+                  "      a_fs: 2160 dyn/cm^2\n      b: 8.023\n      b_f: 16.026\n      b_s: 11.12\n"
+                  "      b_fs: 11.436\n      fibre_energy: isochoric\n      bulk_modulus: "));
+  EXPECT_TRUE(has(joined(translation.remarks.changed), "not by the smooth switch"));
+  EXPECT_TRUE(has(plain(translated(with("HO-ma"))), "fibre_energy: unsplit"));
+  EXPECT_TRUE(has(refused(wall(std::string(elastic) + "<Constitutive_model type=\"HO\"/>", pressure, "struct", mesh)),
+                  "has no a4f"));
+}
+
+TEST(Translate, WritesFacesThatAreMoved) {
+  EXPECT_TRUE(has(plain(translated(wall(elastic,
+                                        "<Type>Dir</Type><Value>0.1</Value>"
+                                        "<Effective_direction>(0, 1, 0)</Effective_direction>"))),
+                  "X1:\n    displacement:\n      value: [0 cm, 0.1 cm, 0 cm]\n      directions: [y]\n"));
+  const auto unsteady = plain(
+      translated(wall(elastic,
+                      "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence><Ramp_function>true</Ramp_function>"
+                      "<Temporal_values_file_path>load.dat</Temporal_values_file_path>")));
+  EXPECT_TRUE(has(unsteady, "value: [1 cm, 1 cm, 1 cm]\n      waveform:\n        table:\n          file: load.dat\n"));
+  EXPECT_TRUE(has(unsteady, "interpolation: ramp"));
+  const char* by_key =
+      "<Type>Dir</Type><Value>0.1</Value>"
+      "<Impose_on_state_variable_integral>true</Impose_on_state_variable_integral>";
+  EXPECT_TRUE(has(plain(translated(wall(elastic, by_key, "ustruct"))), "value: [0.1 cm, 0.1 cm, 0.1 cm]\n"));
+}
+
+TEST(Translate, JoinsALoadWithDirectionsThatAreHeld) {
+  const std::string held = "<Type>Dir</Type><Value>0</Value><Effective_direction>(1, 1, 0)</Effective_direction>",
+                    then = "</Add_BC><Add_BC name=\"X1\">";
+  const std::string expected =
+      "X1:\n    pressure:\n      value: 100 dyn/cm^2\n      follower: false\n      fixed: [x, y]\n";
+  EXPECT_TRUE(has(plain(translated(wall(elastic, held + then + pressure))), expected));
+  EXPECT_TRUE(has(plain(translated(wall(elastic, pressure + then + held))), expected));
+  EXPECT_TRUE(has(plain(translated(wall(elastic, held + then + "<Type>Trac</Type><Value>(0, 0, 5)</Value>"))),
+                  "traction:\n      value: [0 dyn/cm^2, 0 dyn/cm^2, 5 dyn/cm^2]\n      fixed: [x, y]\n"));
+  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Dir</Type><Value>0</Value>" + then + pressure)), "a second condition"));
+  EXPECT_TRUE(has(refused(wall(elastic, held + then + pressure + then + pressure)), "a second condition"));
+}
+
 TEST(Translate, NamesThePhysicsThatIsMissing) {
   FlowParts parts;
   parts.more = "<Add_BC name=\"side\"><Type>Neu</Type><Value>1</Value></Add_BC>";
@@ -279,10 +328,13 @@ TEST(Translate, NamesThePhysicsThatIsMissing) {
   const auto with_law = [](const std::string& law) {
     return refused(wall(std::string(elastic) + "<Constitutive_model type=\"" + law + "\"/>", pressure));
   };
-  EXPECT_TRUE(has(with_law("HO"), "Holzapfel and Ogden"));
+  EXPECT_TRUE(has(with_law("LS"), "Lee and Sacks"));
   EXPECT_TRUE(has(with_law("CANN"), "neural network"));
   EXPECT_TRUE(has(with_law("nkH"), "`nkH`"));
-  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Dir</Type><Value>0.1</Value>")), "displacement is given"));
+  const char* moved = "<Type>Dir</Type><Value>0.1</Value>";
+  EXPECT_TRUE(has(refused(wall(elastic, moved, "ustruct")), "a face of the wall whose velocity is given"));
+  EXPECT_TRUE(has(refused(wall(elastic, std::string(moved) + "<Profile>Parabolic</Profile>")),
+                  "a displacement with a profile over the face"));
   EXPECT_TRUE(has(refused(wall(elastic, "<Type>Neu</Type><Value>(1, 2, 3)</Value>")), "has 3 components"));
   for (const auto& [type, physics] : {std::pair{"heatF", "dye"},
                                       {"CMM", "coupled momentum"},
@@ -319,6 +371,8 @@ TEST(Translate, GivesTheRestOfTheBoundaryNaturalConditions) {
 TEST(Translate, CountsPathsFromTheCase) {
   const auto translation = translate(read_xml(flow({}), "a/b/solver.xml"), unit_system("cgs"), "a/c");
   EXPECT_TRUE(has(plain(translation), "volume: ../b/m/volume.vtu\n"));
+  const auto here = translate(read_xml(flow({}), "solver.xml"), unit_system("cgs"), "");
+  EXPECT_TRUE(has(plain(here), "volume: m/volume.vtu\n"));
 }
 
 TEST(Translate, ReadsBothFormatsAlike) {

@@ -42,6 +42,10 @@ Fung example<Fung>() {
   return {30e3, {1.0, 0.8, 0.7}, {0.3, 0.2, 0.1}, {2.0, 2.5, 3.0}};
 }
 template <>
+HolzapfelOgden example<HolzapfelOgden>() {
+  return {20e3, 2.0, false, {{{18e3, 3.0}, {9e3, 2.0}}, {4e3, 5.0}, false}};
+}
+template <>
 DiscreteFibreLaw example<DiscreteFibreLaw>() {
   DfdParameters p;
   p.elastic.shear_modulus = 50e3;

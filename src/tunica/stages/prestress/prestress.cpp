@@ -446,6 +446,8 @@ void PrestressRun::write_start(const coupling::State& wall) {
     field->assign(at(mesh.nodes()), 0.0);
   parallel::scatter_by_original_id(node_order(mesh), all, start.state.velocity_pressure, 4);
   mesh.halo.update(start.state.velocity_pressure, 4);
+  for (std::size_t k = 3; k < start.state.velocity_pressure.size(); k += 4)
+    start.state.end_pressure.push_back(start.state.velocity_pressure[k]);
   start.state.outlets = flow_.outlets;
   artifacts::write_checkpoint(folder_ / "start.checkpoint", mesh, start);
 }

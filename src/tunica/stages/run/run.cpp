@@ -55,6 +55,8 @@ class Run {
   void end_alone(const std::string& message);
   fs::path checkpoint_folder() const { return folder_ / "checkpoints"; }
   bool is_static() const { return std::holds_alternative<case_file::StaticWall>(case_.analysis); }
+  /// Do results show the ends of steps, in statics as well?
+  bool at_end() const { return case_.output.instant == case_file::Instant::end; }
   bool continued() const { return request_.restart || request_.restart_file; }
   std::int64_t last_step() const;
   /// Of this call, which may be asked to stop earlier.
@@ -242,6 +244,11 @@ void Run::restore() {
   artifacts::Checkpoint checkpoint = artifacts::read_checkpoint(
       name, mesh_, state_, mesh_hash_,
       fmt::format("restart from another checkpoint, such as the last one that is whole: {}", command("--restart")));
+  if (at_end() && !checkpoint.has_end_pressure)
+    throw InputError(
+        "output.instant",
+        fmt::format("is end, but {} holds no pressures at the ends of steps: an early version wrote it", name.string()),
+        "leave output.instant as it was, or begin anew with --overwrite");
   state_ = std::move(checkpoint.state);
   grid_ = make_grid(&checkpoint.position);
   refuse_tables_that_end(comm_, case_, grid_, end_step());
@@ -344,7 +351,8 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   if (!is_static())
     history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
   history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
-  history.points = posed_.probes->evaluate(state_);
+  if (at_end()) history.faces_at_end = monitors_->faces_at_end(state_);
+  history.points = posed_.probes->evaluate(at_end() ? coupling::with_end_pressure(state_) : state_);
   on_disk([&] {
     parallel::on_root(comm_, [&] {
       histories_->append(history, state_.outlets);

@@ -1,0 +1,82 @@
+// boundary: what the conditions of the main equation become, face by face. The three sources of this class are those of
+// all faces, of the blood's and of the wall's.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tunica/peer_cases/problem.hpp"
+
+namespace tunica::peer_cases {
+
+enum class ConditionType { dirichlet, neumann, traction, robin };
+enum class Dependence { steady, unsteady, resistance, rcr, coupled };
+
+/// One condition of the main equation, and where it acts.
+struct ConditionPart {
+  const Entry& entry;  ///< Add_BC
+  const FacePart& face;
+  ConditionType type;
+  Dependence time;
+  std::vector<double> value;    ///< of the key Value; 0 where there is none
+  const Entry* held = nullptr;  ///< another Add_BC of the same wall face: Dir 0 along some axes, beside this load
+
+  double scalar() const { return value.empty() ? 0.0 : value[0]; }
+  bool vanishes() const {
+    return time == Dependence::steady && std::all_of(value.begin(), value.end(), [](double v) { return v == 0; });
+  }
+};
+
+class Conditions {
+ public:
+  Conditions(Context& context, const PosedProblem& problem, CaseKey& boundary)
+      : context_(context), problem_(problem), boundary_(boundary) {}
+
+  void translate();
+
+ private:
+  void translate(const Entry& condition);
+  std::optional<ConditionPart> part_of(const Entry& condition);
+  void translate(const ConditionPart& part);
+  /// The condition beside the load of a wall face that holds the face along some axes; none where there is another
+  /// one, or more.
+  const Entry* held_beside(const Entry& load) const;
+  void refuse_second(const Entry& condition);
+  void check_mesh_equation();
+  void natural(const FacePart& part);
+
+  void lumen_velocity(const ConditionPart& part);
+  void lumen_flow(const ConditionPart& part);
+  void lumen_pressure(const ConditionPart& part);
+  void outlet(const ConditionPart& part);
+  void zerod_outlet(const ConditionPart& part);
+  void wall_motion(const ConditionPart& part);
+  void wall_pressure(const ConditionPart& part);
+  void traction(const ConditionPart& part);
+  void support(const ConditionPart& part);
+
+  CaseKey& face(const ConditionPart& part) { return boundary_.section(part.entry.label, part.entry.where()); }
+  /// Value or table of a time course, in that unit; none: a factor.
+  void course(const ConditionPart& part, const char* unit, CaseKey& to);
+  bool table(const ConditionPart& part, const char* unit, CaseKey& to);
+  /// Axes of Effective_direction; none where it is not there, or names all.
+  std::vector<int> axes(const Entry& condition) const;
+  void add_held(const ConditionPart& part, CaseKey& load);
+  bool profile_is(const ConditionPart& part, const char* wanted) const {
+    return context_.text(part.entry, "Profile", "Flat") == wanted;
+  }
+  /// Normal loads are the same on the whole face.
+  void check_load(const ConditionPart& part);
+
+  Context& context_;
+  const PosedProblem& problem_;
+  CaseKey& boundary_;
+  std::vector<const Entry*> done_;
+};
+
+/// "[x, y]".
+std::string names_of(const std::vector<int>& axes);
+
+}  // namespace tunica::peer_cases
