@@ -23,6 +23,7 @@ struct Context {
   std::vector<Problem> problems = {};
   Remarks remarks = {};
   std::vector<std::string> warnings = {};
+  std::optional<NodalPrestress> prestress = {};
 
   /// "svMultiPhysics" or "svFSI".
   const char* peer() const { return file.dialect == Dialect::xml ? "svMultiPhysics" : "svFSI"; }

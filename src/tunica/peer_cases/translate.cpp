@@ -193,7 +193,7 @@ Translation translate(PeerFile file, const UnitSystem& units, const std::filesys
     translate_output(context, general, top);
   }
   if (!context.problems.empty()) throw InputError(std::move(context.problems));
-  return {with_head(context, top), context.remarks, context.warnings};
+  return {with_head(context, top), context.remarks, context.warnings, context.prestress};
 }
 
 }  // namespace tunica::peer_cases

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,18 @@ struct Remarks {
   std::vector<std::string> defaults;  ///< not written there: the peer's default, or that of tunica in its place
 };
 
+/// A prestress at the nodes of the wall, in a file of the peer; the case names a file of elements that is to be made of
+/// it.
+struct NodalPrestress {
+  std::filesystem::path file;
+  std::string elements_file;  ///< in the folder of the case
+};
+
 struct Translation {
   std::string yaml;  ///< with the remarks at its head and the place of every key behind it
   Remarks remarks;
   std::vector<std::string> warnings;  ///< files that are not there, values that look like slips
+  std::optional<NodalPrestress> prestress = {};
 };
 
 /// Has the boundary of a mesh parts that none of its faces holds? They get natural conditions.

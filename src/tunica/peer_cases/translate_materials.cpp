@@ -411,6 +411,17 @@ void translate_density(Context& context, const PosedProblem& problem, const Doma
     to.add("density", "1000 kg/m^3", density->where() + " 0: no inertia, see `analysis`");
 }
 
+/// Nodal stress becomes that of the elements, in a file that is made beside the case.
+void translate_prestress(Context& context, const PosedProblem& problem, CaseKey& wall) {
+  const Entry* file = problem.wall == nullptr ? nullptr : problem.wall->find("Prestress_file_path");
+  if (file == nullptr) return;
+  context.path(*file);  // warns when it is not there
+  const std::string name = std::filesystem::path(file->value).stem().string() + "_of_elements.vtu";
+  context.prestress = NodalPrestress{context.located(*file), name};
+  wall.add("prestress", yaml_text(name), file->where());
+  context.changed(*file, "each element gets the mean of its nodes, in the file " + name);
+}
+
 }  // namespace
 
 void translate_fluid(Context& context, const PosedProblem& problem, CaseKey& top) {
@@ -468,6 +479,7 @@ void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top)
     wall.add("smoothing_length", with_unit(0.0, context.units.length),
              fmt::format("materials jump, as in {}", context.peer()));
   }
+  translate_prestress(context, problem, wall);
   if (fibres)
     translate_frame(context, problem, orthotropic, wall);
   else if (problem.wall != nullptr)

@@ -303,6 +303,16 @@ TEST(Translate, WritesFacesThatAreMoved) {
   EXPECT_TRUE(has(plain(translated(wall(elastic, by_key, "ustruct"))), "value: [0.1 cm, 0.1 cm, 0.1 cm]\n"));
 }
 
+TEST(Translate, NamesTheFileOfElementsThatIsMadeOfANodalPrestress) {
+  const auto translation =
+      translated(wall(elastic, pressure, "struct", "<Prestress_file_path>pre/stress.vtu</Prestress_file_path>"));
+  EXPECT_TRUE(has(plain(translation), "prestress: stress_of_elements.vtu\n"));
+  ASSERT_TRUE(translation.prestress);
+  EXPECT_EQ(translation.prestress->file, "case/pre/stress.vtu");
+  EXPECT_EQ(translation.prestress->elements_file, "stress_of_elements.vtu");
+  EXPECT_TRUE(has(joined(translation.warnings), "stress.vtu is not there"));
+}
+
 TEST(Translate, JoinsALoadWithDirectionsThatAreHeld) {
   const std::string held = "<Type>Dir</Type><Value>0</Value><Effective_direction>(1, 1, 0)</Effective_direction>",
                     then = "</Add_BC><Add_BC name=\"X1\">";

@@ -6,8 +6,10 @@
 #include "tunica/base/error.hpp"
 #include "tunica/base/text.hpp"
 #include "tunica/case/case.hpp"
+#include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/peer_cases/translate.hpp"
+#include "tunica/stages/import/nodal_prestress.hpp"
 
 namespace tunica::stages {
 
@@ -21,6 +23,9 @@ bool all_there(const case_file::NamedFiles& files) {
     if (!fs::is_regular_file(path, none)) return false;
   return fs::is_regular_file(files.volume, none);
 }
+
+/// Is the mesh of the wall there?
+bool all_there(const case_file::MeshSettings& meshes) { return meshes.wall && all_there(meshes.wall->files); }
 
 /// Boundary that no face holds; none where the meshes are not there.
 peer_cases::Leftover leftover(case_file::Case c, std::vector<std::string>& warnings) {
@@ -70,6 +75,7 @@ ImportOutcome import_case(const ImportRequest& request) {
   ImportOutcome outcome{.dropped = {}, .changed = {}, .defaults = {}, .warnings = translation.warnings};
   auto posed = read(translation.yaml, request.case_file);
   for (const Problem& warning : posed.warnings) outcome.warnings.push_back(format(warning));
+  const case_file::MeshSettings meshes = posed.value.meshes;
   const auto rest = leftover(std::move(posed.value), outcome.warnings);
   if (rest.lumen || rest.wall) translation = peer_cases::translate(file, units, folder, rest);
   outcome.dropped = translation.remarks.dropped;
@@ -82,6 +88,10 @@ ImportOutcome import_case(const ImportRequest& request) {
       throw InputError(request.case_file.string(), "is there already, with other contents",
                        "choose another name by -o, or replace it with --overwrite");
   }
+  std::error_code not_there;
+  if (const auto& nodal = translation.prestress; nodal && fs::exists(nodal->file, not_there) && all_there(meshes))
+    write_element_prestress(nodal->file, config::unit_factor(units.pressure, config::dimension::pressure), meshes,
+                            folder / nodal->elements_file);
   if (!outcome.unchanged) files::write_atomically(request.case_file, translation.yaml);
   return outcome;
 }
