@@ -15,8 +15,8 @@ struct VolumeArray {
   std::string name;
   Of of = Of::elements;
   int components = 1;
-  std::vector<double> values;  ///< [element or node of the whole mesh][component]
-  bool whole_numbers = false;  ///< written as Int32
+  std::vector<double> values{};  ///< [element or node of the whole mesh][component]
+  bool whole_numbers = false;    ///< written as Int32
 };
 
 /// Writes the regions of one kind with that array, nodes and elements in the order of write_simvascular(). Throws

@@ -93,7 +93,7 @@ TEST(Check, StaticWallNeedsSupport) {
 
 TEST(Conditions, HeldAxesAreThoseOfWhateverGivesTheDisplacement) {
   EXPECT_EQ(held_axes(Fixed{}), (Axes{true, true, true}));
-  EXPECT_EQ(held_axes(Pressure{.fixed = {true, false, false}}), (Axes{true, false, false}));
+  EXPECT_EQ(held_axes(Pressure{.pressure = {}, .fixed = {true, false, false}}), (Axes{true, false, false}));
   EXPECT_EQ(held_axes(Traction{.fixed = {false, true, false}}), (Axes{false, true, false}));
   EXPECT_EQ(held_axes(Displacement{.directions = {false, true, true}}), (Axes{false, true, true}));
   EXPECT_EQ(held_axes(Support{}), Axes{});

@@ -44,7 +44,9 @@ TEST(MovedFaces, StretchAStaticBarEvenly) {
     for (std::int32_t i = 0; i < mesh.nodes(); ++i)
       EXPECT_NEAR(state.displacement[at(i)], 0.1 * factor * mesh.points[i][0], 1e-8);
   }
-  EXPECT_LT(state.displacement[at(mesh.nodes() - 1) + 1], 0.0) << "free across: the bar gets thinner";
+  double across = 0;
+  for (std::size_t k = 1; k < state.displacement.size(); k += 4) across = std::min(across, state.displacement[k]);
+  EXPECT_LT(parallel::global_min(MPI_COMM_WORLD, across), -1e-4) << "free across: the bar gets thinner";
 }
 
 TEST(MovedFaces, FollowTheirCourseInTime) {
@@ -78,8 +80,9 @@ TEST(MovedFaces, WhatOthersFixStaysAtRest) {
     EXPECT_GT(mesh.points[node][0], 0.0299);
     EXPECT_NE(axis, 2);
     EXPECT_EQ(displacement, 0.001);
-    if (axis == 1) EXPECT_GT(mesh.points[node][1], 1e-9) << "y_min is fixed along y";
-    along_y += axis == 1;
+    if (axis != 1) return;
+    EXPECT_GT(mesh.points[node][1], 1e-9) << "y_min is fixed along y";
+    ++along_y;
   });
   EXPECT_GT(along_y, 0);
 }
@@ -114,6 +117,7 @@ TEST(EndPressure, IsThatOfTheEndOfTheStep) {
       distributed::distribute(mesh::box(2, 1, 1, {{0.02, 0.01, 0.01}}, mesh::RegionKind::lumen), MPI_COMM_WORLD);
   ProblemInput input;
   input.fluid = test::blood();
+  input.fluid->backflow = 0;  // the pressure acts alone where the flow enters
   input.boundary.fluid = input.fluid;
   input.boundary.conditions = {{"x_min", bc::Pressure{.pressure = {.source = height, .ramp_time = ramp}}},
                                {"x_max", test::pressure(0.0)},

@@ -98,7 +98,8 @@ TEST(Translate, WritesAFlow) {
             "  in:\n    flow:\n      value: -10 cm^3/s\n      positive: outflow\n      profile: flat\n"
             "  out:\n    resistance:\n      resistance: 1212 dyn s/cm^5\n  side:\n    no_slip: {}\n"
             "time:\n  step: 0.005 s\n  steps: 2\n  rho_infinity: 0.5\nnewton:\n  relative_tolerance: 1e-05\n"
-            "output:\n  units:\n    length: cm\n    velocity: cm/s\n    pressure: dyn/cm^2\n    stress: dyn/cm^2\n"
+            "output:\n  instant: end\n  units:\n    length: cm\n    velocity: cm/s\n    pressure: dyn/cm^2\n    "
+            "stress: dyn/cm^2\n"
             "    flow: cm^3/s\n");
   EXPECT_TRUE(has(translation.yaml, "density: 1.06 g/cm^3                          # solver.xml:6 Density"));
   EXPECT_TRUE(has(joined(translation.remarks.dropped), "Max_iterations"));

@@ -10,9 +10,11 @@ namespace {
 
 /// Fitted to shear tests of Dokos et al. (2002): Holzapfel & Ogden (2009), table 1.
 HolzapfelOgdenParameters published() {
-  HolzapfelOgdenParameters p{.a = 59, .b = 8.023, .a_f = 18472, .b_f = 16.026, .a_s = 2481, .b_s = 11.120};
-  p.a_fs = 216;
-  p.b_fs = 11.436;
+  HolzapfelOgdenParameters p;
+  p.a = 59, p.b = 8.023;
+  p.a_f = 18472, p.b_f = 16.026;
+  p.a_s = 2481, p.b_s = 11.120;
+  p.a_fs = 216, p.b_fs = 11.436;
   p.compressibility.poisson_ratio = 0.5;
   return p;
 }
