@@ -15,6 +15,7 @@
 #include "tunica/mesh_io/volume_arrays.hpp"
 #include "tunica/peer_cases/unit_system.hpp"
 #include "tunica/peer_cases/xml_writer.hpp"
+#include "tunica/wall/material.hpp"
 
 namespace tunica::stages {
 
