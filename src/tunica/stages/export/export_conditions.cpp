@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tunica/coupling/settings.hpp"
 #include "tunica/stages/export/exported.hpp"
 
 namespace tunica::stages {
