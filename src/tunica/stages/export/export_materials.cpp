@@ -35,7 +35,8 @@ struct ViscosityExport {
     const auto root = [](double value, const char* unit, const config::Dimension& due) {
       return number(std::sqrt(value / config::unit_factor(unit, due)));
     };
-    add_key(section, "Asymptotic_viscosity_parameter", root(law.mu_infinity, e.units.viscosity, dimension::dynamic_viscosity));
+    add_key(section, "Asymptotic_viscosity_parameter",
+            root(law.mu_infinity, e.units.viscosity, dimension::dynamic_viscosity));
     add_key(section, "Yield_stress_parameter", root(law.yield_stress, e.units.pressure, dimension::pressure));
     add_key(section, "Low_shear_rate_threshold", number(law.regularising_shear_rate));
   }
