@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/anderson.hpp"
 #include "tunica/coupling/nodal.hpp"
+#include "tunica/coupling/unloading.hpp"
 #include "tunica/coupling/wall_element.hpp"
 #include "tunica/distributed/element_nodes.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -33,29 +34,14 @@ WallPrestress without_prestress(const distributed::DistributedMesh& mesh, Method
     auto& values = p.values.emplace_back();
     if (region.kind != mesh::RegionKind::wall) continue;
     values.assign(n * region.elements.size(), 0.0);
-    if (method == Method::stretch)
+    if (method != Method::stress)
       for (std::size_t k = 0; k < values.size(); k += 9) values[k] = values[k + 4] = values[k + 8] = 1.0;
   }
   return p;
 }
 
-/// dx/dX of the motion from the imaged shape at a point (prestress_points), global axes.
-Mat3<double> motion_gradient(const distributed::DistributedMesh& mesh, const State& state,
-                             const distributed::Region& region, std::size_t element, int point) {
-  const auto& nodes = region.elements[element];
-  wall::quadratic::ElementState<double> e{};
-  Vec3<double> X[4];
-  wall::ElementState<double> shape;
-  for (int a = 0; a < 4; ++a) {
-    X[a] = mesh.points[nodes[a]];
-    shape.displacement[a] = e.displacement[a] = vector_at(state.displacement.data(), nodes[a]);
-  }
-  wall::set_reference(shape, X);
-  if (!mesh.quadratic) return wall::deformation_gradient(shape);
-  for (std::size_t k = 0; k < 6; ++k)
-    e.displacement[4 + k] = vector_at(state.displacement.data(), region.edges[element][k]);
-  e.reference = shape.reference;
-  return wall::deformation_gradient(wall::quadratic::at_point(e, point, {}));
+Method as_method(PrestressSettings::Fallback fallback) {
+  return fallback == PrestressSettings::Fallback::stress ? Method::stress : Method::stretch;
 }
 
 std::vector<double> flat(const WallPrestress& prestress) {
@@ -67,14 +53,16 @@ std::vector<double> flat(const WallPrestress& prestress) {
 class FixedPoint {
  public:
   using Follow = std::function<void(const PrestressRecord&)>;
-  FixedPoint(Problem& problem, const PrestressSettings& settings, double load_time, const Follow& follow)
+  FixedPoint(Problem& problem, const PrestressSettings& settings, Method method, double load_time, const Follow& follow)
       : problem_(problem),
         settings_(settings),
+        method_(method),
         mesh_(problem.mesh()),
         follow_(follow),
         start_(problem.initial_state()) {
     find_prestressed_nodes();
     start_.time = load_time;
+    result_.method = method;
   }
 
   PrestressResult run();
@@ -90,6 +78,9 @@ class FixedPoint {
   /// Back to no prestress, then all but the last of `steps` shares of the load, with an update after each.
   bool ramp(int steps);
   std::optional<State> first_solution();
+  /// What the fixed point is of: the prestress, or the motion from the unloaded shape to the image [local node][3].
+  std::vector<double> unknown() const;
+  std::vector<double> updated_unknown(const State& loaded) const;
   WallPrestress updated(const State& loaded) const;
   /// `values`: the present prestress of the point q of an element, afterwards its next one.
   void update_point(const State& loaded, std::size_t region, std::size_t element, int q, double* values) const;
@@ -100,9 +91,11 @@ class FixedPoint {
 
   Problem& problem_;
   const PrestressSettings& settings_;
+  const Method method_;
   const distributed::DistributedMesh& mesh_;
   const Follow& follow_;
   State start_;                    ///< undeformed
+  bool inverted_ = false;          ///< the unloaded shape that was set last has inverted elements
   std::vector<char> prestressed_;  ///< [owned node]
   PrestressResult result_;
 };
@@ -148,7 +141,11 @@ std::vector<double> FixedPoint::displacements(const State& state) const {
 
 std::optional<State> FixedPoint::solve(double load, double relaxation) {
   State loaded = result_.state;
-  const StepReport report = problem_.solve_static(loaded, load);
+  StepReport report;
+  if (inverted_)
+    report.failure = "an element of the unloaded shape is inverted";
+  else
+    report = problem_.solve_static(loaded, load);
   PrestressRecord& record = result_.history.emplace_back();
   record.iteration = static_cast<int>(result_.history.size());
   record.load = load;
@@ -165,13 +162,15 @@ std::optional<State> FixedPoint::solve(double load, double relaxation) {
 }
 
 bool FixedPoint::ramp(int steps) {
-  result_.prestress = without_prestress(mesh_, settings_.method);
+  result_.prestress = without_prestress(mesh_, method_);
   result_.state = start_;
+  inverted_ = false;
+  if (method_ == Method::inverse) result_.unloading.assign(3 * static_cast<std::size_t>(mesh_.nodes()), 0.0);
   problem_.set_prestress(result_.prestress);
   for (int k = 1; k < steps; ++k) {
     const auto loaded = solve(static_cast<double>(k) / steps, k == 1 ? 0.0 : 1.0);
     if (!loaded) return false;
-    set(flat(updated(*loaded)));
+    set(updated_unknown(*loaded));
     result_.state = rest(*loaded);
   }
   return true;
@@ -199,8 +198,8 @@ WallPrestress FixedPoint::updated(const State& loaded) const {
 }
 
 void FixedPoint::update_point(const State& loaded, std::size_t r, std::size_t e, int q, double* values) const {
-  const Mat3<double> F = motion_gradient(mesh_, loaded, mesh_.regions[r], e, q);
-  if (settings_.method == Method::stretch) {
+  const Mat3<double> F = motion_gradient(mesh_, loaded.displacement, 4, mesh_.regions[r], e, q);
+  if (method_ == Method::stretch) {
     Mat3<double> F0;
     for (int k = 0; k < 9; ++k) F0(k / 3, k % 3) = values[k];
     F0 = F * F0;
@@ -221,16 +220,36 @@ void FixedPoint::update_point(const State& loaded, std::size_t r, std::size_t e,
 State FixedPoint::rest(const State& loaded) const {
   State state = loaded;
   std::fill(state.displacement.begin(), state.displacement.end(), 0.0);
-  if (settings_.method == Method::stress)
-    std::fill(state.velocity_pressure.begin(), state.velocity_pressure.end(), 0.0);
+  if (method_ == Method::stress) std::fill(state.velocity_pressure.begin(), state.velocity_pressure.end(), 0.0);
   state.residual_reference = 0.0;
   return state;
 }
 
+std::vector<double> FixedPoint::unknown() const {
+  return method_ == Method::inverse ? result_.unloading : flat(result_.prestress);
+}
+
+// (5.8) moves the stress-free shape back by what the wall moves under the load (Sellier 2011).
+std::vector<double> FixedPoint::updated_unknown(const State& loaded) const {
+  if (method_ != Method::inverse) return flat(updated(loaded));
+  std::vector<double> U = result_.unloading;
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) U[3 * static_cast<std::size_t>(i) + c] += loaded.displacement[at(i) + c];
+  return U;
+}
+
 void FixedPoint::set(const std::vector<double>& values) {
-  auto value = values.begin();
-  for (auto& region : result_.prestress.values)
-    for (double& component : region) component = *value++;
+  if (method_ == Method::inverse) {
+    result_.unloading = values;
+    auto prestretch = prestretch_of(mesh_, values);
+    inverted_ = parallel::global_max(mesh_.comm, prestretch ? 0.0 : 1.0) > 0;
+    if (inverted_) return;
+    result_.prestress = std::move(*prestretch);
+  } else {
+    auto value = values.begin();
+    for (auto& region : result_.prestress.values)
+      for (double& component : region) component = *value++;
+  }
   problem_.set_prestress(result_.prestress);
 }
 
@@ -250,8 +269,8 @@ PrestressResult FixedPoint::run() {
     if (k == settings_.max_iterations) break;
     if (displacement < growth * last) {  // false for NaN
       last = displacement;
-      x = flat(result_.prestress);
-      g = flat(updated(*loaded));
+      x = unknown();
+      g = updated_unknown(*loaded);
       for (std::size_t i = 0; i < g.size(); ++i) g[i] -= x[i];
       result_.state = rest(*loaded);
       if (k > 1) relaxation = std::min(settings_.relaxation, 2 * relaxation);
@@ -274,37 +293,15 @@ PrestressResult FixedPoint::run() {
 
 }  // namespace
 
-config::Schema<PrestressSettings> PrestressSettings::schema() {
-  using namespace config;
-  return Schema<PrestressSettings>("prestress", "Fixed point for the prestress of the imaged wall.")
-      .choice("method", &PrestressSettings::method, {{"stress", Method::stress}, {"stretch", Method::stretch}},
-              "stress: S0 is added to the stress of the law; stretch: the law sees the imaged shape as stretched, so "
-              "that fibres are recruited in it")
-      .by_default()
-      .choice("update", &PrestressSettings::update,
-              {{"first_piola", Update::first_piola}, {"second_piola", Update::second_piola}},
-              "Method stress: the symmetric part of the first Piola-Kirchhoff stress of the loaded wall becomes S0, or "
-              "its second one (Hsu & Bazilevs 2011)")
-      .by_default()
-      .texts("exclude", &PrestressSettings::exclude, "Wall regions that stay free of prestress, such as the flap")
-      .by_default()
-      .quantity("tolerance", &PrestressSettings::tolerance, dimension::length, above(0),
-                "Largest displacement of the prestressed wall under its load")
-      .by_default()
-      .plausible("1e-6 mm", "0.1 mm")
-      .integer("max_iterations", &PrestressSettings::max_iterations, range(1, 10000), "Of the fixed point")
-      .by_default()
-      .number("relaxation", &PrestressSettings::relaxation, range(0.01, 1),
-              "Share of an update that is taken; halved by itself where the displacement grows")
-      .by_default()
-      .integer("load_steps", &PrestressSettings::load_steps, range(1, 256),
-               "Equal steps in which the load grows, with an update after each; doubled by itself where that fails")
-      .by_default();
-}
-
 PrestressResult find_prestress(Problem& problem, const PrestressSettings& settings, double load_time,
                                const std::function<void(const PrestressRecord&)>& follow) {
-  return FixedPoint(problem, settings, load_time, follow).run();
+  PrestressResult result = FixedPoint(problem, settings, settings.method, load_time, follow).run();
+  if (result.converged || settings.method != Method::inverse) return result;
+  if (!settings.fallback) return result;
+  PrestressResult other = FixedPoint(problem, settings, as_method(*settings.fallback), load_time, follow).run();
+  other.inverse_failure = result.failure;
+  other.history.insert(other.history.begin(), result.history.begin(), result.history.end());
+  return other;
 }
 
 }  // namespace tunica::coupling

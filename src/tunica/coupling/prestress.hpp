@@ -25,8 +25,12 @@ struct PrestressRecord {
 
 struct PrestressResult {
   bool converged = false;
-  std::string failure;  ///< why not
+  std::string failure;                                                   ///< why not
+  PrestressSettings::Method method = PrestressSettings::Method::stress;  ///< that found it
+  std::string inverse_failure;  ///< why the fallback had to take over; empty when it had not
   WallPrestress prestress;
+  /// Method inverse: motion from the unloaded to the imaged shape [m], [local node][3]. Empty otherwise.
+  std::vector<double> unloading;
   State state;  ///< imaged shape under the load: u = 0, and the pressure of the wall, which additive prestress contains
   std::vector<PrestressRecord> history;
 };

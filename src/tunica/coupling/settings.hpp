@@ -135,14 +135,19 @@ struct PressurePoint {
 /// Of the fixed point (prestress.hpp).
 struct PrestressSettings {
   enum class Method {
-    stress,  ///< additive, (5.1)
-    stretch  ///< multiplicative, (5.2)
+    stress,   ///< additive, (5.1)
+    stretch,  ///< multiplicative, (5.2)
+    inverse   ///< multiplicative, from a stress-free shape of the whole wall, (5.7)
   };
   /// What the stress of a loaded wall becomes in the imaged shape, (5.4); additive method only.
   enum class Update { first_piola, second_piola };
 
+  /// Where there is no such shape.
+  enum class Fallback { stress, stretch };
+
   Method method = Method::stress;
   Update update = Update::first_piola;
+  std::optional<Fallback> fallback{};  ///< method inverse only; none: an error
   std::vector<std::string> exclude{};  ///< wall regions that stay free of prestress
   double tolerance = 1e-6;             ///< largest displacement under the load [m]
   int max_iterations = 60;

@@ -375,7 +375,7 @@ const std::vector<Stage>& stages() {
        .output = "prestress.output",
        .result = "start.checkpoint",
        .outputs = {"start.checkpoint", "flow.checkpoint", "wall.vtu", "prestress.json", "boundary.yaml",
-                   "fixed_point.*", "flow/*", "wall/*", "traction/*"},
+                   "fixed_point.*", "flow/*", "wall/*", "traction/*", "unloaded/*"},
        .wanted = [](const case_file::Case& c) { return c.finds_prestress(); },
        .document = prestress_document,
        .description = description_of<case_file::Case>(),

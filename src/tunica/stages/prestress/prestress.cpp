@@ -26,6 +26,7 @@
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/submesh.hpp"
+#include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
 #include "tunica/parallel/progress.hpp"
@@ -88,6 +89,11 @@ case_file::Case wall_case(const case_file::Case& c, const std::vector<std::strin
   return wall;
 }
 
+const char* name_of(coupling::PrestressSettings::Method method) {
+  using Method = coupling::PrestressSettings::Method;
+  return method == Method::stress ? "stress" : method == Method::stretch ? "stretch" : "inverse";
+}
+
 /// A wall that inertia holds in a run may be loose in statics.
 void check_support(const case_file::Case& wall, const std::vector<std::string>& wall_faces,
                    const std::vector<std::string>& interface_faces) {
@@ -127,6 +133,7 @@ class PrestressRun {
   void plot_history(const std::vector<coupling::PrestressRecord>& history);
   void write_prestress_file(const coupling::WallPrestress& prestress);
   void write_stress(const coupling::Problem& problem, const coupling::State& state);
+  void write_unloaded(const std::vector<double>& unloading);
   void write_start(const coupling::State& wall);
   void write_report(const coupling::PrestressResult& result);
 
@@ -420,6 +427,20 @@ void PrestressRun::write_prestress_file(const coupling::WallPrestress& prestress
                     [&] { artifacts::write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
 }
 
+// A mesh like any other: what a case or a mesher that wants the wall without its load reads.
+void PrestressRun::write_unloaded(const std::vector<double>& unloading) {
+  const auto U = parallel::gather_by_original_id(
+      node_order(wall_), std::span(unloading).first(3 * static_cast<std::size_t>(wall_.owned_nodes)), 3);
+  const double metres_per_unit = config::unit_factor(case_.output.units.length, config::dimension::length);
+  parallel::on_root(comm_, [&] {
+    mesh::MeshData unloaded = wall_part_.data;
+    for (std::size_t i = 0; i < unloaded.points.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c) unloaded.points[i][static_cast<int>(c)] -= U[3 * i + c];
+    unloaded.fields.clear();  // directions of fibres are those of the image
+    mesh_io::write_simvascular(folder_ / "unloaded", unloaded, RegionKind::wall, metres_per_unit);
+  });
+}
+
 void PrestressRun::write_stress(const coupling::Problem& problem, const coupling::State& state) {
   artifacts::OutputFields fields(problem, wall_case(case_, wall_faces_));
   distributed::ResultsWriter writer(wall_, results_in("wall"));
@@ -461,6 +482,8 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
   json["status"] = result.converged ? "completed" : "failed";
   json["converged"] = result.converged;
   if (!result.converged) json["failure"] = result.failure;
+  json["method"] = name_of(result.method);
+  if (!result.inverse_failure.empty()) json["no unloaded shape"] = result.inverse_failure;
   json["iterations"] = result.history.size();
   json["largest displacement [m]"] = result.history.empty() ? 0.0 : result.history.back().displacement;
   if (case_.solves_fluid())
@@ -496,13 +519,20 @@ void PrestressRun::find_wall() {
   write_report(result);
   if (!result.converged)
     throw SolverError(fmt::format(
-        "the fixed point of the prestress did not converge: {}\n  try a smaller "
+        "the fixed point of the prestress did not converge: {}\n  {}try a smaller "
         "`relaxation`, more `load_steps`, or another `method`{}",
         result.failure,
+        result.method == coupling::PrestressSettings::Method::inverse
+            ? "there may be no unloaded shape, as where a thin flap buckles: `fallback: stretch` would take over; or "
+            : "",
         case_.solves_fluid()
             ? fmt::format(", with the flow and traction that are in {}: {}", folder_.string(), command("--keep-flow"))
             : fmt::format(": {}", command("--overwrite"))));
+  if (!result.inverse_failure.empty())
+    log_->warning(fmt::format("no unloaded shape was found: {}. The prestress is that of the fallback `{}`",
+                              result.inverse_failure, name_of(result.method)));
   write_prestress_file(result.prestress);
+  if (!result.unloading.empty()) write_unloaded(result.unloading);
   write_stress(problem, result.state);
   write_start(result.state);
 }

@@ -37,6 +37,7 @@ void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFac
 /// - traction/: its traction on the wall;
 /// - fixed_point.csv, fixed_point.svg: how the fixed point converged, line by line;
 /// - wall.vtu: the prestress, for the key `wall.prestress` (prestress_file.hpp); wall/: stress in the imaged shape;
+/// - unloaded/: with method `inverse` the wall in its unloaded shape, as write_simvascular() writes it;
 /// - start.checkpoint: the state of flow and wall, for the key `start`;
 /// - prestress.json: what was done and found, prestress.log.
 /// The wall has the loads that the case gives it, and where the case has flow, its traction.
