@@ -46,7 +46,7 @@ struct WallArrays {
 
 /// With the point arrays that the supports of the case want, by face.
 WallArrays wall_arrays(const case_file::Case& c) {
-  WallArrays arrays{c.frame_arrays()};
+  WallArrays arrays{c.wall_arrays()};
   for (const auto& [face, condition] : c.boundary) {
     const auto* support = std::get_if<bc::Support>(&condition);
     if (support == nullptr) continue;

@@ -261,8 +261,8 @@ bool Case::finds_prestress() const { return prestress && !(wall && wall->prestre
 
 bool Case::wall_has_pressure() const { return wall && wall->element == wall::Element::mixed; }
 
-std::vector<std::string> Case::frame_arrays() const {
-  return wall && wall->fibre_frame ? wall::frame_arrays(*wall->fibre_frame) : std::vector<std::string>();
+std::vector<std::string> Case::wall_arrays() const {
+  return wall ? wall->cell_arrays() : std::vector<std::string>();
 }
 
 std::optional<std::filesystem::path> Case::prestress_file() const { return wall ? wall->prestress : std::nullopt; }

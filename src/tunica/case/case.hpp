@@ -175,7 +175,7 @@ struct Case {
   bool solves_fluid() const;
   bool solves_wall() const;
   bool wall_has_pressure() const;                               ///< as an unknown
-  std::vector<std::string> frame_arrays() const;                ///< cell arrays that its fibre frames are read from
+  std::vector<std::string> wall_arrays() const;                 ///< cell arrays that its `wall` section names
   std::optional<std::filesystem::path> prestress_file() const;  ///< of the wall
   static config::Schema<Case> schema();
 };

@@ -5,6 +5,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/fibre_frames.hpp"
+#include "tunica/coupling/material_weights.hpp"
 #include "tunica/coupling/region_blending.hpp"
 
 namespace tunica::coupling {
@@ -62,22 +63,30 @@ WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Param
       volumetric_energy_(parameters.volumetric_energy),
       stabilisation_(parameters.stabilisation),
       points_(coupling::prestress_points(mesh.quadratic)) {
+  bool anisotropic = false;
   const auto add = [&](const std::string& name, const wall::LawParameters& material, double density) {
+    anisotropic |= wall::is_anisotropic(material);
     laws_.push_back(wall::make_law(material));
     densities_.push_back(density);
     bulk_moduli_.push_back(wall::bulk_modulus(material));
     shear_moduli_.push_back(wall::shear_modulus_at_rest(laws_.back()));
     for (const std::string& note : wall::notes(laws_.back())) notes_.push_back(name + ": " + note);
   };
-  add("wall", parameters.material, parameters.density);
-  bool anisotropic = wall::is_anisotropic(parameters.material);
-  for (const auto& [name, region] : parameters.regions) {
-    add("wall region " + name, region.material, region.density.value_or(parameters.density));
-    anisotropic |= wall::is_anisotropic(region.material);
-  }
+  std::vector<const wall::Composition*> compositions;
+  const auto add_all = [&](const std::string& name, const wall::LawParameters& material,
+                           const wall::Composition& composition, double density) {
+    add(name, material, density);
+    for (const auto* further : composition.further()) add(name + ", further material", *further, density);
+    compositions.push_back(&composition);
+  };
+  add_all("wall", parameters.material, parameters.composition, parameters.density);
+  for (const auto& [name, region] : parameters.regions)
+    add_all("wall region " + name, region.material, region.composition, region.density.value_or(parameters.density));
 
-  const auto blending = blend_regions(mesh, material_of_regions(mesh, parameters), static_cast<int>(laws_.size()),
-                                      parameters.smoothing_length.value_or(0.0));
+  const auto shares =
+      material_weights(mesh, compositions,
+                       blend_regions(mesh, material_of_regions(mesh, parameters), static_cast<int>(compositions.size()),
+                                     parameters.smoothing_length.value_or(0.0)));
   std::map<std::vector<std::size_t>, std::int32_t> known;
   regions_.resize(mesh.regions.size());
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
@@ -85,7 +94,7 @@ WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Param
     RegionModel& region = regions_[r];
     if (anisotropic) region.frames = fibre_frames(mesh, mesh.regions[r], parameters.fibre_frame.value());
     for (std::size_t e = 0; e < mesh.regions[r].elements.size(); ++e) {
-      const double* weights = blending[r].data() + e * laws_.size();
+      const double* weights = shares[r].data() + e * laws_.size();
       std::vector<std::size_t> present;
       region.weights.push_back(weights_.size());
       for (std::size_t m = 0; m < laws_.size(); ++m)

@@ -15,8 +15,8 @@ namespace tunica::coupling {
 class WallModel {
  public:
   /// Prestress is taken from the mesh where it has the array (wall::prestress_array). Throws InputError when a region
-  /// of the parameters is not in the mesh, a frame cannot be found, or the rule of fibre directions cannot keep its
-  /// tolerance. Collective.
+  /// of the parameters is not in the mesh, a frame or an array cannot be found, or the rule of fibre directions cannot
+  /// keep its tolerance. Collective.
   WallModel(const distributed::DistributedMesh& mesh, const wall::Parameters& parameters);
 
   bool mixed() const { return mixed_; }
@@ -50,7 +50,8 @@ class WallModel {
   wall::quadratic::PointPrestress<double> point_prestress(std::size_t region, std::int32_t element) const;
   int prestress_points() const { return points_; }
 
-  /// Weight of a material in an element: 0 is that of all regions without one of their own, then the others by name.
+  /// Weight of a material in an element: 0 is that of all regions without one of their own, then what else they are
+  /// composed of (wall::Composition::further), then the same of the other regions by name.
   double weight(std::size_t region, std::int32_t element, std::size_t material) const;
   std::size_t materials() const { return laws_.size(); }
 

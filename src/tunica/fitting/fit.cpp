@@ -64,10 +64,7 @@ void complete(const Model& model, const Residuals& residuals, Fit& fit) {
 }  // namespace
 
 Fit fit(Model& model, const FitOptions& options) {
-  const auto targets = model.measured();
-  const Residuals residuals = [&](std::span<const double> x, std::vector<double>& r) {
-    return model.residuals(x, targets, r);
-  };
+  const Residuals residuals = model.against(model.measured());
   std::vector<std::vector<double>> starts{model.start()};
   for (auto& s : scattered_starts(model.unknowns().size(), static_cast<std::size_t>(std::max(options.starts - 1, 0))))
     starts.push_back(std::move(s));

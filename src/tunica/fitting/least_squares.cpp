@@ -159,10 +159,6 @@ Eigen::VectorXd bounded_step(const Matrix& normal, const Eigen::VectorXd& gradie
   return d;
 }
 
-}  // namespace
-
-namespace {
-
 /// A refit on its way.
 class Refit {
  public:

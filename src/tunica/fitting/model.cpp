@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "tunica/base/error.hpp"
 
@@ -117,6 +118,12 @@ bool Model::residuals(std::span<const double> scaled, const std::vector<std::vec
     return false;
   }
   return true;
+}
+
+Residuals Model::against(std::vector<std::vector<double>> targets) const {
+  return [this, targets = std::move(targets)](std::span<const double> x, std::vector<double>& r) {
+    return residuals(x, targets, r);
+  };
 }
 
 std::vector<std::vector<double>> Model::measured() const {

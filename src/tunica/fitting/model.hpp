@@ -52,6 +52,8 @@ class Model {
   /// the law has no stress.
   bool residuals(std::span<const double> scaled, const std::vector<std::vector<double>>& targets,
                  std::vector<double>& out) const;
+  /// The same as a function, which refers to this model.
+  Residuals against(std::vector<std::vector<double>> targets) const;
   /// What was measured, in the order of predicted().
   std::vector<std::vector<double>> measured() const;
   std::size_t count() const;  ///< of residuals

@@ -106,10 +106,7 @@ struct Start {
 /// would stay beside it, and with it all parameters that depend on the one that is not identified.
 std::vector<Start> starts_of(const Model& model, const Fit& fit, const std::vector<Determination>& unknowns) {
   std::vector<Start> starts{{fit.x, fit.at_end.slopes}};
-  const auto targets = model.measured();
-  const Residuals residuals = [&](std::span<const double> x, std::vector<double>& r) {
-    return model.residuals(x, targets, r);
-  };
+  const Residuals residuals = model.against(model.measured());
   const double limit = std::pow(student_95(fit.degrees_of_freedom()), 2);
   for (const Determination& d : unknowns) {
     if (d.identification == Identification::identified) continue;
@@ -136,9 +133,7 @@ std::vector<std::vector<double>> bootstrap(const Model& model, const Fit& fit, s
       std::vector<std::vector<double>> targets = blocks.draw(random);
       for (std::size_t k = 0; k < targets.size(); ++k)
         for (std::size_t n = 0; n < targets[k].size(); ++n) targets[k][n] += fit.predicted[k][n];
-      const Residuals residuals = [&](std::span<const double> x, std::vector<double>& r) {
-        return own.residuals(x, targets, r);
-      };
+      const Residuals residuals = own.against(std::move(targets));
       double least = std::numeric_limits<double>::infinity();
       const auto search = [&](Start start) {
         try {
@@ -193,8 +188,8 @@ std::vector<double> expected_widths(const Fit& fit) {
 /// explains or the bound is reached.
 class Side {
  public:
-  Side(const Model& model, const Fit& fit, const std::vector<std::vector<double>>& targets, std::size_t unknown)
-      : model_(model), fit_(fit), targets_(targets), unknown_(unknown) {}
+  Side(const Residuals& residuals, const Fit& fit, std::size_t unknown)
+      : residuals_(residuals), fit_(fit), unknown_(unknown) {}
 
   /// Returns where the interval ends, and whether that is open.
   std::pair<double, bool> walk(double direction, double step, std::vector<ProfilePoint>& points) const {
@@ -227,24 +222,19 @@ class Side {
   Minimum fitted_beside(const std::vector<double>& x) const {
     std::vector<bool> held(fit_.x.size(), false);
     held[unknown_] = true;
-    const Residuals residuals = [&](std::span<const double> y, std::vector<double>& r) {
-      return model_.residuals(y, targets_, r);
-    };
-    std::vector<double> slopes = jacobian(residuals, x, held);
-    return refit(residuals, x, slopes, little(fit_), {.held = held, .thorough = true});
+    std::vector<double> slopes = jacobian(residuals_, x, held);
+    return refit(residuals_, x, slopes, little(fit_), {.held = held, .thorough = true});
   }
 
-  const Model& model_;
+  const Residuals& residuals_;
   const Fit& fit_;
-  const std::vector<std::vector<double>>& targets_;
   std::size_t unknown_;
 };
 
-Determination profile(const Model& model, const Fit& fit, const std::vector<std::vector<double>>& targets,
-                      std::size_t i, double width) {
+Determination profile(const Residuals& residuals, const Fit& fit, std::size_t i, double width) {
   Determination d;
   const double step = std::clamp(0.4 * width, 1e-4, 0.1);
-  const Side side(model, fit, targets, i);
+  const Side side(residuals, fit, i);
   std::vector<ProfilePoint> below, above;
   std::tie(d.profile.low, d.open_below) = side.walk(-1.0, step, below);
   std::tie(d.profile.high, d.open_above) = side.walk(1.0, step, above);
@@ -284,10 +274,11 @@ Uncertainty uncertainty(const Model& model, const Fit& fit, const UncertaintyOpt
   Uncertainty result;
   result.unknowns.resize(n);
   result.block = block_length(model, fit);
-  const auto targets = model.measured();
   const std::vector<double> widths = expected_widths(fit);
   in_parallel(n, options.threads, [&] {
-    return [&, own = model](std::size_t i) { result.unknowns[i] = profile(own, fit, targets, i, widths[i]); };
+    return [&, own = model](std::size_t i) {
+      result.unknowns[i] = profile(own.against(own.measured()), fit, i, widths[i]);
+    };
   });
   result.replicates = bootstrap(model, fit, result.block, starts_of(model, fit, result.unknowns), options);
   if (result.replicates.size() < 20)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tunica::wall {
@@ -25,7 +26,11 @@ void check_compressibility(const LawParameters& material, const std::string& whe
 void check_regions(const Parameters& p, config::Problems& problems) {
   const auto each = [&](const auto& visit) {
     visit(p.material, std::string("the material"));
-    for (const auto& [name, region] : p.regions) visit(region.material, "the material of region " + name);
+    for (const auto* further : p.composition.further()) visit(*further, std::string("a further material"));
+    for (const auto& [name, region] : p.regions) {
+      visit(region.material, "the material of region " + name);
+      for (const auto* further : region.composition.further()) visit(*further, "a further material of region " + name);
+    }
   };
   if (p.element == Element::displacement)
     each([&](const LawParameters& m, const std::string& where) { check_compressibility(m, where, problems); });
@@ -45,6 +50,17 @@ void check_regions(const Parameters& p, config::Problems& problems) {
 
 }  // namespace
 
+std::vector<std::string> Parameters::cell_arrays() const {
+  std::vector<std::string> names = fibre_frame ? frame_arrays(*fibre_frame) : std::vector<std::string>();
+  const auto add = [&](const Composition& of) {
+    for (auto& name : of.arrays())
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  };
+  add(composition);
+  for (const auto& [name, region] : regions) add(region.composition);
+  return names;
+}
+
 Body Parameters::body() const {
   return {
       .density = density, .volumetric = {volumetric_energy, bulk_modulus(material)}, .stabilisation = stabilisation};
@@ -54,7 +70,8 @@ config::Schema<RegionMaterial> RegionMaterial::schema() {
   return config::Schema<RegionMaterial>("region_material", "A region with a material of its own.")
       .quantity("density", &RegionMaterial::density, config::dimension::density, config::above(0),
                 "Density in the reference state; that of the wall when left out")
-      .section("material", &RegionMaterial::material, law_schema(), "Law of the region and its parameters");
+      .section("material", &RegionMaterial::material, law_schema(), "Law of the region and its parameters")
+      .include(&RegionMaterial::composition, Composition::schema());
 }
 
 config::Schema<VolumetricEnergy> volumetric_energy_schema() {
@@ -77,6 +94,7 @@ config::Schema<Parameters> Parameters::schema() {
                 "Density in the reference state")
       .plausible("500 kg/m^3", "3000 kg/m^3")
       .section("material", &Parameters::material, law_schema(), "Law of the wall and its parameters")
+      .include(&Parameters::composition, Composition::schema())
       .map("regions", &Parameters::regions, RegionMaterial::schema(),
            "Wall regions of the mesh with a material of their own, by name")
       .by_default()

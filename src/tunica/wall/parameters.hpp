@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tunica/config/schema.hpp"
+#include "tunica/wall/composition.hpp"
 #include "tunica/wall/element.hpp"
 #include "tunica/wall/fibre_frame.hpp"
 #include "tunica/wall/material.hpp"
@@ -22,6 +23,7 @@ enum class Element {
 struct RegionMaterial {
   std::optional<double> density;  ///< rho_0 [kg/m^3]; else that of the wall
   LawParameters material;
+  Composition composition;  ///< of `material` and others
   static config::Schema<RegionMaterial> schema();
 };
 
@@ -30,14 +32,18 @@ config::Schema<VolumetricEnergy> volumetric_energy_schema();
 
 struct Parameters {
   Element element = Element::mixed;
-  double density = 0.0;    ///< rho_0 [kg/m^3]
-  LawParameters material;  ///< of all regions that `regions` does not name
+  double density = 0.0;     ///< rho_0 [kg/m^3]
+  LawParameters material;   ///< of all regions that `regions` does not name
+  Composition composition;  ///< of these, of `material` and others
   std::map<std::string, RegionMaterial> regions;
   std::optional<double> smoothing_length;  ///< over which one material turns into the next [m]; 0: they jump
   std::optional<FrameSource> fibre_frame;
   std::optional<std::filesystem::path> prestress;  ///< file of `tunica prestress`
   VolumetricEnergy volumetric_energy = VolumetricEnergy::simo_taylor;
   double stabilisation = default_stabilisation;  ///< c in tau_u = c h^2 / mu [-]
+
+  /// Cell arrays that directions and compositions are read from.
+  std::vector<std::string> cell_arrays() const;
 
   /// Of the regions that `regions` does not name.
   Law law() const { return make_law(material); }

@@ -55,7 +55,7 @@ class UnloadedBlock : public testing::TestWithParam<bool> {
   distributed::DistributedMesh mesh;
 };
 INSTANTIATE_TEST_SUITE_P(Elements, UnloadedBlock, testing::Bool(),
-                         [](const auto& info) { return info.param ? "quadratic" : "linear"; });
+                         [](const auto& elements) { return elements.param ? "quadratic" : "linear"; });
 
 // Directions of fibres turn with the unloaded shape, so that of a motion F = V R the law sees V alone.
 TEST_P(UnloadedBlock, PrestretchIsTheLeftStretch) {

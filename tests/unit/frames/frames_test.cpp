@@ -10,6 +10,7 @@
 #include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/distributed/element_shape.hpp"
+#include "tunica/frames/depth.hpp"
 #include "tunica/frames/symmetric_tensor.hpp"
 #include "tunica/frames/tears.hpp"
 #include "tunica/mesh/generate.hpp"
@@ -43,6 +44,21 @@ std::vector<double> ids_with_ghosts(const ElementGraph& graph) {
   for (std::int32_t e = 0; e < graph.owned(); ++e) ids[e] = static_cast<double>(graph.id(e));
   graph.update(ids, 1);
   return ids;
+}
+
+// ln(r / inner) / ln(outer / inner) of a tube; the mesh has two elements through the wall.
+TEST(Depth, IsHarmonicThroughTheWall) {
+  const auto mesh = distributed::distribute(small_tube(), MPI_COMM_WORLD);
+  const ElementGraph graph(mesh);
+  const auto depth = depths(graph, {"wall_inner"}, {"wall_outer"});
+  ASSERT_EQ(depth.size(), static_cast<std::size_t>(graph.owned()));
+  const auto corner = [](double radius) { return std::log(radius / 0.01) / std::log(1.2); };
+  for (std::int32_t e = 0; e < graph.owned(); ++e) {
+    double exact = 0;
+    for (const auto node : graph.nodes(e))
+      exact += 0.25 * corner(std::hypot(mesh.points[node][0], mesh.points[node][1]));
+    EXPECT_NEAR(depth[e], exact, 0.03);
+  }
 }
 
 TEST(ElementGraph, NeighboursAndFacesDoNotDependOnTheRanks) {

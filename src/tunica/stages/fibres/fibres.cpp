@@ -13,6 +13,7 @@
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
+#include "tunica/frames/depth.hpp"
 #include "tunica/frames/tears.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
@@ -165,6 +166,8 @@ MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh lo
   phases.begin("directions");
   const auto frames = frames::make_frames(graph, roles, c.frames);
   auto fields = gather_frames(c, graph, frames);
+  if (!c.outer.empty())
+    fields.push_back(Gatherer(mesh)(array_depth, 1, frames::depths(graph, c.inner_faces(), c.outer)));
   ReportInput input{.data = loaded.data, .inlet = roles.inlet, .outlets = roles.outlets};
   if (c.tears) {
     phases.begin("tears");

@@ -17,7 +17,7 @@ namespace tunica::stages::fibres {
 
 /// Cell arrays of the result, by which a case names them. Vectors have no unit.
 inline constexpr const char *array_e1 = "e1", *array_e2 = "e2", *array_e3 = "e3", *array_m4 = "m4", *array_m6 = "m6",
-                            *array_jump = "jump [deg]", *array_confidence = "confidence",
+                            *array_jump = "jump [deg]", *array_confidence = "confidence", *array_depth = "depth",
                             *array_tear = "tear distance [mm]";
 
 /// What the faces of a mesh are to the frames. Throws InputError for names of faces or regions that do not exist.
