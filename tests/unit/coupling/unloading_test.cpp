@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tunica/base/error.hpp"
+#include "tunica/coupling/settings.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/generate.hpp"
@@ -76,6 +78,13 @@ TEST_P(UnloadedBlock, InvertedElementsAreNoShape) {
   Mat3<double> mirror = identity<double>();
   mirror(0, 0) = -0.5;
   EXPECT_EQ(prestretch_of(mesh, motion(mirror)).has_value(), mesh.regions[0].elements.empty());
+}
+
+TEST(Unloading, KeysThatHaveNoEffectAreRefused) {
+  const auto read = [](const std::string& text) { return config::parse_text(PrestressSettings::schema(), text).value; };
+  EXPECT_EQ(read("method: inverse\nfallback: stretch\n").fallback, PrestressSettings::Fallback::stretch);
+  EXPECT_THROW(read("method: stretch\nfallback: stress\n"), InputError);
+  EXPECT_THROW(read("method: inverse\nexclude: [flap]\n"), InputError);
 }
 
 }  // namespace
