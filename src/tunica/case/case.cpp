@@ -261,9 +261,7 @@ bool Case::finds_prestress() const { return prestress && !(wall && wall->prestre
 
 bool Case::wall_has_pressure() const { return wall && wall->element == wall::Element::mixed; }
 
-std::vector<std::string> Case::wall_arrays() const {
-  return wall ? wall->cell_arrays() : std::vector<std::string>();
-}
+std::vector<std::string> Case::wall_arrays() const { return wall ? wall->cell_arrays() : std::vector<std::string>(); }
 
 std::optional<std::filesystem::path> Case::prestress_file() const { return wall ? wall->prestress : std::nullopt; }
 
