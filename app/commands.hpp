@@ -37,5 +37,6 @@ void add_tune(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_vary(CLI::App& app);
 void add_verify(CLI::App& app);
+void add_view(CLI::App& app);
 
 }  // namespace tunica::app

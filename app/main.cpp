@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   tunica::app::add_validate(app);
   tunica::app::add_vary(app);
   tunica::app::add_verify(app);
+  tunica::app::add_view(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {  // how a subcommand returns another exit code

@@ -71,3 +71,25 @@ function(tunica_folder name)
     target_link_libraries(tunica_${name} INTERFACE tunica_flags ${ARG_LINK})
   endif()
 endfunction()
+
+# tunica_embed(<target> <namespace> <name>=<file>...): the files become part of the target, as functions <name>() of the
+# namespace. Files relative to the present folder.
+function(tunica_embed target namespace)
+  set(files)
+  set(entries)
+  foreach(entry ${ARGN})
+    string(REGEX MATCH "^([^=]+)=(.+)$" _ "${entry}")
+    get_filename_component(path "${CMAKE_MATCH_2}" ABSOLUTE)
+    list(APPEND files ${path})
+    list(APPEND entries "${CMAKE_MATCH_1}=${path}")
+  endforeach()
+  if(NOT TARGET tunica_embedder)
+    add_executable(tunica_embedder ${CMAKE_SOURCE_DIR}/cmake/embed.cpp)
+    target_compile_options(tunica_embedder PRIVATE -O1)
+  endif()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_assets.cpp)
+  add_custom_command(OUTPUT ${source} DEPENDS tunica_embedder ${files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+    COMMAND ${CMAKE_COMMAND} -DTOOL=$<TARGET_FILE:tunica_embedder> -DOUT=${source} -DNAMESPACE=${namespace}
+      "-DFILES=${entries}" -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
+  target_sources(${target} PRIVATE ${source})
+endfunction()

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "tunica/base/text.hpp"
@@ -10,17 +11,34 @@ namespace tunica::drawing::page {
 
 namespace {
 
+// Colours are named once, for light and dark; print is light, with everything open and nothing torn apart.
 constexpr const char* style =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;color:#222}"
-    "figure{display:inline-block;margin:0 1em 1em 0;vertical-align:top}figcaption{color:#555;max-width:34em}"
-    "table{border-collapse:collapse;margin-bottom:1em}td,th{padding:.2em .8em;border-bottom:1px solid #ddd;"
-    "text-align:right}td:first-child,th:first-child{text-align:left}.legend i{display:inline-block;width:1em;"
-    "height:1em;margin-right:.4em;vertical-align:-.15em}.legend span{margin-right:1.2em}figure img{max-width:545px}"
-    "td{white-space:nowrap}"
-    "h2{border-bottom:2px solid #ddd;margin-top:1.6em}.missing{color:#666;background:#f5f5f5;padding:.4em .8em}"
-    "pre{background:#f5f5f5;padding:.8em;overflow-x:auto;font-size:13px}nav a{margin-right:1em}";
+    ":root{--ink:#1d2733;--soft:#55606c;--page:#fff;--panel:#f6f8fa;--line:#d5dbe1;--accent:#0b63b0;--bad:#b3261e;"
+    "--good:#1b6e3c;color-scheme:light dark}"
+    "@media(prefers-color-scheme:dark){:root{--ink:#e3e8ee;--soft:#a3afbb;--page:#14181d;--panel:#1c2229;"
+    "--line:#39424c;--accent:#6db3f2;--bad:#ff8a80;--good:#7fd6a0}}"
+    "body{font:15px/1.5 system-ui,sans-serif;max-width:1180px;margin:1.6em auto;padding:0 1em;color:var(--ink);"
+    "background:var(--page)}h1{font-size:1.55rem;margin:.2em 0}h2{font-size:1.2rem;border-bottom:2px solid "
+    "var(--line);margin-top:1.8em}h3{font-size:1rem;margin-bottom:.3em}a{color:var(--accent)}"
+    "figure{display:inline-block;margin:1.4em 1.4em .6em 0;vertical-align:top;max-width:100%}"
+    "figcaption{color:var(--soft);max-width:34em;font-size:.9rem}figure img,figure svg{max-width:min(100%,545px);"
+    "height:auto}.wide{overflow-x:auto;max-width:100%}"
+    "table{border-collapse:collapse;margin-bottom:1em;font-variant-numeric:tabular-nums}caption{text-align:left;"
+    "color:var(--soft);padding-bottom:.2em}td,th{padding:.2em .8em;border-bottom:1px solid var(--line);"
+    "text-align:right;vertical-align:top}thead th{font-weight:600}td:first-child,th:first-child{text-align:left;"
+    "padding-left:0}tbody th{font-weight:400}.legend i{display:inline-block;width:1em;height:1em;margin-right:.4em;"
+    "vertical-align:-.15em}.legend span{margin-right:1.2em}"
+    ".missing{color:var(--soft);background:var(--panel);padding:.4em .8em;border-radius:4px}"
+    ".bad{color:var(--bad);font-weight:600}.good{color:var(--good)}.soft{color:var(--soft)}"
+    "pre{background:var(--panel);padding:.8em;overflow-x:auto;font-size:13px}nav a{margin-right:1em}"
+    "summary{cursor:pointer}"
+    "@media(max-width:600px){body{margin:.6em auto;padding:0 .6em}td,th{padding:.2em .4em}}"
+    "@media print{:root{--ink:#000;--soft:#333;--page:#fff;--panel:#fff;--line:#bbb}@page{size:A4;margin:14mm 13mm}"
+    "body{font-size:9.5pt;max-width:none;margin:0;padding:0}nav{display:none}figure,tr,.missing{break-inside:avoid}"
+    "h2,h3,caption,summary{break-after:avoid}figure{width:48%;margin:0 1% 2mm 0}.wide{overflow:visible}"
+    "table{font-size:8pt}td,th{padding:.1em .4em}.screen{display:none}pre{white-space:pre-wrap;font-size:7.5pt}}";
 constexpr const char* replacement = "\xEF\xBF\xBD";  // for a byte of a file name that is no UTF-8
-constexpr const char *heading_end = "</h1>\n", *page_end = "</body></html>\n";
+constexpr const char *heading_end = "</h1>\n", *page_end = "</main></body></html>\n";
 
 }  // namespace
 
@@ -51,11 +69,12 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string begin(const std::string& title) {
+std::string begin(const std::string& title, const Head& head) {
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style>"
-      "</head>\n<body>\n<h1>{0}{2}",
-      escaped(title), style, heading_end);
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\"><meta http-equiv=\"Content-Security-Policy\" content=\"{3}\">"
+      "<title>{0}</title><style>{1}{4}</style></head>\n<body>\n<main>\n<h1>{0}{2}",
+      escaped(title), style, heading_end, head.policy, head.style);
 }
 
 std::string end() { return page_end; }
@@ -67,15 +86,20 @@ std::string body(const std::string& page) {
   return page.substr(from, stop - from);
 }
 
-std::string data_url(const std::vector<std::uint8_t>& bytes, const std::string& type) {
+std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text = fmt::format("data:image/{};base64,", type);
+  std::string text;
+  text.reserve(bytes.size() / 3 * 4 + 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? bytes[i + k] : 0u; };
     const std::uint32_t three = (byte(0) << 16) | (byte(1) << 8) | byte(2);
     for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[(three >> (18 - 6 * k)) & 63];
   }
   return text;
+}
+
+std::string data_url(const std::vector<std::uint8_t>& bytes, const std::string& type) {
+  return fmt::format("data:image/{};base64,", type) + base64(bytes);
 }
 
 std::string picture(const std::string& url, const std::string& caption) {
@@ -91,10 +115,19 @@ std::string row(const std::vector<std::string>& cells, const char* tag) {
   return text + "</tr>\n";
 }
 
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
-  std::string text = "<table>\n" + row(head, "th");
+std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                  const std::string& caption) {
+  const bool has_head = std::any_of(head.begin(), head.end(), [](const auto& cell) { return !cell.empty(); });
+  std::string text = "<div class=\"wide\"><table class=\"sorts\">\n";
+  if (!caption.empty()) text += fmt::format("<caption>{}</caption>\n", caption);
+  if (has_head) {
+    text += "<thead><tr>";
+    for (const auto& cell : head) text += fmt::format("<th scope=\"col\">{}</th>", cell);
+    text += "</tr></thead>\n";
+  }
+  text += "<tbody>\n";
   for (const auto& cells : rows) text += row(cells);
-  return text + "</table>\n";
+  return text + "</tbody></table></div>\n";
 }
 
 }  // namespace tunica::drawing::page

@@ -3,6 +3,7 @@
 
 #include "tunica/drawing/page.hpp"
 #include "tunica/stages/report/parts.hpp"
+#include "tunica/viewer/view_page.hpp"
 
 namespace tunica::stages::report {
 
@@ -44,7 +45,7 @@ std::string openings(const Results& r) {
                                              {"systolic [mmHg]", "pressure/systolic_mmHg"},
                                              {"diastolic [mmHg]", "pressure/diastolic_mmHg"},
                                              {"mean [mmHg]", "pressure/mean_mmHg"},
-                                             {"mean outward flow [ml/s]", "flow_outwards/mean_ml_s"},
+                                             {"mean flow outwards [ml/s]", "flow_outwards/mean_ml_s"},
                                              {"largest", "flow_outwards/largest_ml_s"},
                                              {"smallest", "flow_outwards/smallest_ml_s"},
                                              {"share of the outflow", "share_of_outflow"}});
@@ -163,17 +164,18 @@ std::string difference(const Results& r) {
          "</details>\n";
 }
 
-/// Mark of a drawing: that of the figures in it.
-std::string any_mark(const json& list) {
-  for (const auto& entry : list)
-    if (const auto m = mark(entry); !m.empty()) return m;
-  return "";
+/// Plots whose title begins so.
+std::string curves(const std::vector<viewer::Plot>& plots, const std::string& title) {
+  std::string text;
+  for (std::size_t k = 0; k < plots.size(); ++k)
+    if (plots[k].title.starts_with(title)) text += viewer::plot(plots, k, drawing::page::escaped(plots[k].title));
+  return text;
 }
 
 }  // namespace
 
-std::string cycle_part(const Results& r) {
-  std::string text = "<h2 id=\"cycle\">Figures of the cycle</h2>\n";
+std::string cycle_part(const Results& r, const std::vector<viewer::Plot>& plots) {
+  std::string text = "<h2 id=\"cycle\">The beat</h2>\n";
   if (r.post.is_null())
     return text + missing("Figures of the cycle", "the case has no stage `post`, or it is not done");
   text += fmt::format("<p>From {} s to {} s, {} fields; highest pressure at {} s.</p>\n",
@@ -186,23 +188,10 @@ std::string cycle_part(const Results& r) {
   if (r.bands.is_boolean())
     text += missing("Error bands", "those of converge/ are of other figures than these; do `tunica converge` anew");
   if (const json d = at(r.post, "numerical_dissipation"); !d.is_null()) text += dissipation_table(d);
-  const auto folder = r.folder("post");
-  const std::string of_openings = any_mark(at(r.post, "openings")), of_stations = any_mark(at(r.post, "stations")),
-                    of_tears = any_mark(at(r.post, "tears"));
-  return text + openings(r) +
-         drawings(folder, {{"openings_pressure.svg", "Pressure at the openings" + of_openings},
-                           {"openings_flow.svg", "Flow out of the openings" + of_openings}}) +
-         difference(r) +
-         drawings(folder, {{"pressure_difference.svg",
-                            "Pressure of the true less that of the false lumen, along the aorta" + of_stations},
-                           {"pressure_difference_in_time.svg", "The same in time" + of_stations},
-                           {"pressure.svg", "Pressure along the aorta" + of_stations},
-                           {"area.svg", "Area of the lumens along the aorta" + of_stations},
-                           {"flow.svg", "Flow along the aorta" + of_stations}}) +
-         tears(r) + drawings(folder, {{"tears.svg", "Flow through the tears into the false lumen" + of_tears}}) +
-         flap(r) + drawings(folder, {{"flap.svg", "Displacement of the flap" + mark(at(r.post, "flap"))}}) +
-         wall_shear(r) + stress(r) +
-         drawings(folder, {{"stress.svg", "Stress in the wall over time" + any_mark(at(r.post, "stress"))}});
+  return text + openings(r) + curves(plots, "Pressure at the openings") + curves(plots, "Flow at the openings") +
+         difference(r) + curves(plots, "Pressure of the true") + curves(plots, "Pressure along") +
+         curves(plots, "Flow along") + curves(plots, "Area along") + tears(r) + curves(plots, "Flow through the tears") +
+         flap(r) + curves(plots, "Displacement of the flap") + wall_shear(r) + stress(r) + curves(plots, "Von Mises");
 }
 
 }  // namespace tunica::stages::report

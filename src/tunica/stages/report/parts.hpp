@@ -9,6 +9,7 @@
 
 #include "tunica/files/phases.hpp"
 #include "tunica/stages/report/report.hpp"
+#include "tunica/viewer/beat.hpp"
 
 namespace tunica::stages::report {
 
@@ -42,13 +43,17 @@ std::string missing(const std::string& what, const std::string& why);
 std::string drawings(const std::filesystem::path& folder,
                      const std::vector<std::pair<std::string, std::string>>& captions_by_file);
 
+/// Figures beside targets and published values; is the beat periodic, what is not resolved. The first of `plots` are the
+/// pressures of the openings.
+std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots);
 std::string summary_part(const Results& r, const artifacts::ProgramVersion& program);
 std::string mesh_part(const Results& r);
 std::string fibres_part(const Results& r);
 std::string prestress_part(const Results& r);
 std::string outlets_part(const Results& r);
 std::string run_part(const Results& r);
-std::string cycle_part(const Results& r);
+/// Tables of the cycle, and the plots where they belong; a page has each of `plots` once.
+std::string cycle_part(const Results& r, const std::vector<viewer::Plot>& plots);
 std::string pictures_part(const Results& r, const files::Say& say);
 
 }  // namespace tunica::stages::report

@@ -9,6 +9,7 @@
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/picture.hpp"
 #include "tunica/stages/report/parts.hpp"
+#include "tunica/stages/vessel_plane.hpp"
 
 namespace tunica::stages::report {
 
@@ -21,26 +22,6 @@ Vec3<double> vector_of(const json& list) {
 }
 
 Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
-
-/// The plane in which a curved vessel lies: through the middle of its stations, normal to the direction in which they
-/// are spread least, found by power iteration on the matrix that turns the order of its eigenvalues round.
-std::optional<drawing::ClipPlane> plane_of(const std::vector<Vec3<double>>& places) {
-  if (places.size() < 3) return std::nullopt;
-  Vec3<double> middle{};
-  for (const auto& p : places) middle = middle + (1.0 / static_cast<double>(places.size())) * p;
-  Mat3<double> spread{};
-  double trace = 0;
-  for (const auto& p : places) {
-    const auto d = p - middle;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) spread(i, j) -= d[i] * d[j];
-    trace += dot(d, d);
-  }
-  for (int i = 0; i < 3; ++i) spread(i, i) += trace;
-  Vec3<double> normal = unit(Vec3<double>{{0.6, 0.7, 0.4}});
-  for (int k = 0; k < 200; ++k) normal = unit(spread * normal);
-  return drawing::ClipPlane{middle, normal};
-}
 
 /// The few extreme values at edges would make one colour of all the others.
 constexpr double shown = 99;
@@ -62,7 +43,7 @@ void add_cuts(const json& post, double per_mm, Scene& scene) {
   if (post.is_null() || !post.contains("stations")) return;
   std::vector<Vec3<double>> centres;
   for (const auto& station : post["stations"]) centres.push_back(per_mm * vector_of(station.at("centre_mm")));
-  scene.plane = plane_of(centres);
+  if (const auto plane = plane_of(centres)) scene.plane = drawing::ClipPlane{plane->centre, plane->normal};
   if (!post.contains("tears") || centres.size() < 2) return;
   for (const auto& tear : post["tears"]) {
     const auto place = per_mm * vector_of(tear.at("centre_mm"));
@@ -70,11 +51,8 @@ void add_cuts(const json& post, double per_mm, Scene& scene) {
         std::min_element(centres.begin(), centres.end(),
                          [&](const auto& a, const auto& b) { return norm(a - place) < norm(b - place); }) -
         centres.begin();
-    const auto from = std::max<std::ptrdiff_t>(0, nearest - 1),
-               to = std::min<std::ptrdiff_t>(std::ssize(centres) - 1, nearest + 1);
     scene.cuts.emplace_back(tear.value("name", "tear"),
-                            drawing::ClipPlane{place, unit(centres[static_cast<std::size_t>(to)] -
-                                                           centres[static_cast<std::size_t>(from)])});
+                            drawing::ClipPlane{place, direction_at(centres, static_cast<std::size_t>(nearest))});
   }
 }
 

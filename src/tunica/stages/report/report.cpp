@@ -12,7 +12,9 @@
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
+#include "tunica/stages/beat.hpp"
 #include "tunica/stages/report/parts.hpp"
+#include "tunica/viewer/view_page.hpp"
 
 namespace tunica::stages {
 
@@ -35,9 +37,38 @@ std::string case_part(const ReportCase& report) {
 }
 
 constexpr const char* contents =
-    "<nav><a href=\"#mesh\">mesh</a><a href=\"#fibres\">fibres</a><a href=\"#prestress\">prestress</a>"
-    "<a href=\"#outlets\">outlets</a><a href=\"#run\">run</a><a href=\"#cycle\">cycle</a>"
-    "<a href=\"#pictures\">pictures</a><a href=\"#case\">case file</a></nav>\n";
+    "<nav aria-label=\"Parts of the page\"><a href=\"#answer\">found</a><a href=\"#view3d\">3D</a>"
+    "<a href=\"#mesh\">geometry</a><a href=\"#cycle\">the beat</a><a href=\"#pictures\">pictures</a>"
+    "<a href=\"#method\">method</a><a href=\"#run\">numerics</a><a href=\"#case\">case file</a></nav>\n";
+
+/// The beat in 3D; a case whose fields cannot be shown says why.
+struct View {
+  std::string text, accuracy;
+  bool drawn = false;
+};
+
+View view_of(const stages::report::Results& r, const BeatSource& source, const files::Say& say) {
+  View view{"<h2 id=\"view3d\">The beat in 3D</h2>\n", "", false};
+  const auto without = [&](const std::string& why) {
+    view.text += stages::report::missing("The view", why);
+    return view;
+  };
+  if (r.manifest.is_null()) return without("there are no fields of a run");
+  if (!fs::exists(source.case_file)) return without("case.yaml is not in the folder of the run");
+  try {
+    auto beat = collect_beat(source, say);
+    for (const auto& remark : beat.remarks) view.accuracy += stages::report::missing("The view", remark);
+    say("view: modes and page");
+    const auto packed = viewer::pack(std::move(beat), {});
+    view.text += viewer::view(packed);
+    view.accuracy += viewer::accuracy(packed);
+    view.drawn = true;
+  } catch (const InputError& error) {
+    say(fmt::format("warning: no view in the report: {}", error.what()));
+    return without(error.what());
+  }
+  return view;
+}
 
 }  // namespace
 
@@ -69,13 +100,18 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   const files::FolderLock lock(report.output);
   if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
   files::try_outputs(report.output, {"report.html"});
-  const auto results = stages::report::read_results(report);
-  const std::string text = drawing::page::begin(report.title.empty() ? "Report" : report.title) + contents +
-                           stages::report::summary_part(results, program) + stages::report::mesh_part(results) +
-                           stages::report::fibres_part(results) + stages::report::prestress_part(results) +
-                           stages::report::outlets_part(results) + stages::report::run_part(results) +
-                           stages::report::cycle_part(results) + stages::report::pictures_part(results, say) +
-                           case_part(report) + drawing::page::end();
+  namespace part = stages::report;
+  const auto r = part::read_results(report);
+  const BeatSource source{r.folder("run") / "case.yaml", r.folder("run"), r.post};
+  const auto plots = collect_plots(source, r.folder("post"));
+  const View view = view_of(r, source, say);
+  std::string text = viewer::begin_page(report.title.empty() ? "Report" : report.title) + contents;
+  text += part::answer_part(r, plots) + view.text + part::mesh_part(r) + part::fibres_part(r);
+  text += part::cycle_part(r, plots) + part::pictures_part(r, say);
+  text += "<h2 id=\"method\">Method</h2>\n" + part::prestress_part(r) + part::outlets_part(r);
+  text += part::run_part(r) + part::summary_part(r, program);
+  if (view.drawn) text += "<h3>How exact the view in 3D is</h3>\n" + view.accuracy;
+  text += case_part(report) + viewer::end_page(plots, view.drawn);
   files::write_atomically(file, text);
   return file;
 }

@@ -113,7 +113,7 @@ std::string runs(const json& manifest) {
 }  // namespace
 
 std::string run_part(const Results& r) {
-  std::string text = "<h2 id=\"run\">Run</h2>\n";
+  std::string text = "<h2 id=\"run\">Numerics</h2>\n";
   const fs::path folder = r.folder("run");
   if (r.manifest.is_null()) return text + missing("The run", "it is not done");
   const bool has_faces = fs::exists(folder / "faces.csv");

@@ -82,11 +82,11 @@ std::string summary_part(const Results& r, const artifacts::ProgramVersion& prog
     text += ".";
   }
   text += "</p>\n" + across_table(at(at(r.manifest, "mesh"), "elements_across"));
-  return text + "<h2 id=\"stages\">Stages</h2>\n" + stage_table(r) + settings_table(r);
+  return text + "<h3 id=\"stages\">Stages</h3>\n" + stage_table(r) + settings_table(r);
 }
 
 std::string mesh_part(const Results& r) {
-  std::string text = "<h2 id=\"mesh\">Mesh</h2>\n";
+  std::string text = "<h2 id=\"mesh\">Geometry</h2>\n";
   if (r.mesh.is_null()) return text + missing("Quality of the mesh", "the case has no stage `mesh`, or it is not done");
   const fs::path page = r.folder("mesh") / "report.html";
   if (!fs::exists(page)) return text + missing("Quality of the mesh", "report.html is not in the folder of the mesh");
@@ -97,7 +97,7 @@ std::string mesh_part(const Results& r) {
 }
 
 std::string fibres_part(const Results& r) {
-  std::string text = "<h2 id=\"fibres\">Material directions</h2>\n";
+  std::string text = "<h3 id=\"fibres\">Material directions</h3>\n";
   if (r.fibres.is_null()) return text + missing("Directions", "the case has no stage `fibres`, or it is not done");
   std::vector<std::vector<std::string>> rows;
   const auto line = [&](const json& region, const std::string& name) {
@@ -113,7 +113,7 @@ std::string fibres_part(const Results& r) {
 }
 
 std::string prestress_part(const Results& r) {
-  std::string text = "<h2 id=\"prestress\">Prestress</h2>\n";
+  std::string text = "<h3 id=\"prestress\">Prestress</h3>\n";
   if (r.prestress.is_null()) return text + missing("Prestress", "the case has no stage `prestress`, or it is not done");
   std::vector<std::vector<std::string>> rows = {
       {"converged", figure(at(r.prestress, "converged"))},
@@ -133,7 +133,7 @@ std::string prestress_part(const Results& r) {
 }
 
 std::string outlets_part(const Results& r) {
-  std::string text = "<h2 id=\"outlets\">Outlets</h2>\n";
+  std::string text = "<h3 id=\"outlets\">Outlets</h3>\n";
   if (r.tuning.is_null()) return text + missing("Tuned outlets", "the case has no stage `outlets`, or it is not done");
   const json cycles = at(r.tuning, "cycles"), targets = at(r.tuning, "targets");
   text += fmt::format("<p>Status: {}; tolerance {} %.</p>\n", figure(at(r.tuning, "status")),

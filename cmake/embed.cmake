@@ -1,0 +1,10 @@
+# Runs the tool `embed` on files with their hashes: cmake -DTOOL= -DOUT= -DNAMESPACE= -DFILES="name=path;..." -P embed.cmake
+set(arguments)
+foreach(entry ${FILES})
+  string(REGEX MATCH "^([^=]+)=(.+)$" _ "${entry}")
+  set(name ${CMAKE_MATCH_1})
+  set(path ${CMAKE_MATCH_2})
+  file(SHA256 "${path}" hex)
+  list(APPEND arguments ${name} "${path}" ${hex})
+endforeach()
+execute_process(COMMAND ${TOOL} ${OUT} ${NAMESPACE} ${arguments} COMMAND_ERROR_IS_FATAL ANY)
