@@ -46,15 +46,15 @@ void add_view(CLI::App& app) {
   const auto distance = std::make_shared<double>(0.1);
   command->add_option("case", *case_file, "The case file")->required();
   command->add_option("-o,--output", *output, "The page; default: beat.html")->check(some_name());
-  command->add_option("--results", *results, "Folder that `tunica run` wrote, instead of the case's")->check(some_name());
+  command->add_option("--results", *results, "Folder that `tunica run` wrote, instead of the case's")
+      ->check(some_name());
   command->add_option("--figures", *post, "Folder that `tunica post` wrote, instead of the case's")->check(some_name());
   command
       ->add_option("--tolerance", request->packing.tolerance,
                    "99.9 % of the values differ by less, as a share of the range; default: 0.005")
       ->check(CLI::Range(1e-5, 0.1));
   command
-      ->add_option("--triangles", request->packing.most_triangles,
-                   "Surfaces with more are simplified; default: 120000")
+      ->add_option("--triangles", request->packing.most_triangles, "Surfaces with more are simplified; default: 120000")
       ->check(CLI::Range(1000, 10000000));
   command->add_option("--distance", *distance, "[mm] by which they may leave those of the mesh; default: 0.1")
       ->check(CLI::Range(0.0, 10.0));

@@ -13,7 +13,8 @@ std::string escaped(const std::string& text);
 /// What the head of a page holds besides its title.
 struct Head {
   /// Content security policy; that of pages without scripts lets nothing run and fetches nothing.
-  std::string policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'";
+  std::string policy =
+      "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'";
   std::string style = "";  ///< besides that of all pages
 };
 

@@ -51,8 +51,8 @@ std::vector<viewer::CutPlane> planes_of(const json& post, viewer::Beat& beat) {
   for (const auto& station : post["stations"]) centres.push_back(place_of(station.at("centre_mm")));
   if (const auto plane = plane_of(centres)) {
     planes.push_back({"along the aorta", plane->centre, plane->normal, 0});
-    beat.view = plane->normal;
     if (std::abs(plane->normal[2]) > 0.9) beat.up = {{0, 1, 0}};
+    beat.view = plane->normal + 0.35 * beat.up;  // a little from above, so that sections across are no lines
   }
   if (centres.size() < 2) return planes;
   const std::size_t every = (centres.size() + most_sections - 1) / most_sections;
@@ -73,7 +73,8 @@ void add_lumen_labels(const MeshData& data, const json& post, viewer::Beat& beat
   if (side == data.node_fields.end() || !post.is_object() || !post.contains("stations")) return;
   std::vector<Vec3<double>> both;
   for (const auto& station : post["stations"])
-    if (station.contains("true_lumen") && station.contains("false_lumen")) both.push_back(place_of(station.at("centre_mm")));
+    if (station.contains("true_lumen") && station.contains("false_lumen"))
+      both.push_back(place_of(station.at("centre_mm")));
   if (both.empty()) return;
   const auto& middle = both[both.size() / 2];
   std::array<Vec3<double>, 2> sum{};
@@ -107,14 +108,15 @@ void add_labels(const MeshData& data, const Skeleton& surface, const json& post,
   }
   if (post.is_object() && post.contains("tears"))
     for (const auto& tear : post["tears"])
-      beat.labels.push_back({(tear.value("entry", false) ? "entry " : "") + shown_name(tear.value("name", "tear")), "tear",
-                             place_of(tear.at("centre_mm"))});
+      beat.labels.push_back({(tear.value("entry", false) ? "entry " : "") + shown_name(tear.value("name", "tear")),
+                             "tear", place_of(tear.at("centre_mm"))});
   add_lumen_labels(data, post, beat);
 }
 
 // --- quantities -----------------------------------------------------------------------------------------------------
 
-float blend(const std::vector<double>& nodal, const PointSource& s, std::size_t components, std::size_t c, double unit) {
+float blend(const std::vector<double>& nodal, const PointSource& s, std::size_t components, std::size_t c,
+            double unit) {
   const double a = nodal[components * static_cast<std::size_t>(s.a) + c],
                b = nodal[components * static_cast<std::size_t>(s.b) + c];
   return static_cast<float>(((1 - s.t) * a + s.t * b) / unit);
@@ -131,7 +133,8 @@ class NodalMean {
     std::vector<double> sum(data_.points.size(), 0.0), weight(data_.points.size(), 0.0);
     for (const auto& region : data_.regions) {
       if (region.kind != RegionKind::wall) continue;
-      for (auto e = static_cast<std::size_t>(region.first_element); e < static_cast<std::size_t>(region.end_element); ++e) {
+      for (auto e = static_cast<std::size_t>(region.first_element); e < static_cast<std::size_t>(region.end_element);
+           ++e) {
         if (std::isnan(of_elements[e])) continue;
         for (const auto node : data_.tetrahedra[e]) {
           sum[static_cast<std::size_t>(node)] += volumes_[e] * of_elements[e];
@@ -183,14 +186,12 @@ class Collector {
     for (auto* s : {&surface, &sections}) {
       if (run.wall) displacement_.push_back(motion_of(*s));
       if (run.wall && s->wall_end > 0)
-        for (std::size_t q = 0; q < stresses_.size(); ++q)
-          stress_.emplace_back(q, of_wall(*s, stresses_[q], "kPa"));
+        for (std::size_t q = 0; q < stresses_.size(); ++q) stress_.emplace_back(q, of_wall(*s, stresses_[q], "kPa"));
       if (run.fluid && s->blood_end > s->blood_first) pressure_.push_back(of_blood(*s, "pressure", "mmHg", 1));
     }
     if (run.fluid && surface.inside_end > surface.blood_first)
       shear_ = of_inside(surface, "wall shear stress", "Pa", 3);
-    if (run.fluid && sections.blood_end > sections.blood_first)
-      velocity_ = of_blood(sections, "velocity", "m/s", 3);
+    if (run.fluid && sections.blood_end > sections.blood_first) velocity_ = of_blood(sections, "velocity", "m/s", 3);
     integrals_.assign(4 * data.points.size(), 0.0);
   }
 
@@ -244,7 +245,8 @@ class Collector {
 
   void add_shear_figures(double duration) {
     auto& body = shear_->skeleton->body;
-    std::array<Quantity, 3> cycle = {Quantity{"TAWSS", "Pa", "inside", 1, 0, 0, {{}}}, Quantity{"OSI", "", "inside", 1, 0, 0, {{}}},
+    std::array<Quantity, 3> cycle = {Quantity{"TAWSS", "Pa", "inside", 1, 0, 0, {{}}},
+                                     Quantity{"OSI", "", "inside", 1, 0, 0, {{}}},
                                      Quantity{"RRT", "1/Pa", "inside", 1, 0, 0, {{}}}};
     for (std::size_t i = 0; i < shear_->quantity.count; ++i) {
       const double* s = integrals_.data() + 4 * static_cast<std::size_t>((*shear_->sources)[i].a);

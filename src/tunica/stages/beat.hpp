@@ -21,8 +21,9 @@ struct BeatSource {
 inline constexpr std::size_t most_frames = 64;
 
 /// Reads mesh and fields of the window of the figures. Displacement [mm]; of the wall stresses [kPa], averages of the
-/// elements around a node by volume, and thickness [mm]; of the blood pressure [mmHg], velocity [m/s], wall shear stress,
-/// TAWSS [Pa], OSI, RRT [1/Pa]. Throws InputError where mesh or fields do not read. Not collective: for one rank.
+/// elements around a node by volume, and thickness [mm]; of the blood pressure [mmHg], velocity [m/s], wall shear
+/// stress, TAWSS [Pa], OSI, RRT [1/Pa]. Throws InputError where mesh or fields do not read. Not collective: for one
+/// rank.
 viewer::Beat collect_beat(const BeatSource& source, const files::Say& say);
 
 /// Curves over the beat and along the aorta, from the tables of a run and of its figures: those whose tables are there.

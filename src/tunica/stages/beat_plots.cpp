@@ -68,10 +68,16 @@ void add_openings(const fs::path& results, const json& post, std::vector<Plot>& 
       flow{"Flow at the openings, in at the inlet and out at the others", "time [s]", "flow [ml/s]", true, {}};
   const auto names = openings_of(post, *faces);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const bool inlet = post.is_object() && post.contains("openings") ? post["openings"][k].value("inlet", false) : k == 0;
-    Curve p{shown(names[k]), {}, artifacts::si_column(*faces, names[k] + " pressure", dimension::pressure),
+    const bool inlet =
+        post.is_object() && post.contains("openings") ? post["openings"][k].value("inlet", false) : k == 0;
+    Curve p{shown(names[k]),
+            {},
+            artifacts::si_column(*faces, names[k] + " pressure", dimension::pressure),
             static_cast<int>(k)},
-        q{shown(names[k]), {}, artifacts::si_column(*faces, names[k] + " flow", dimension::volume_flow), static_cast<int>(k)};
+        q{shown(names[k]),
+          {},
+          artifacts::si_column(*faces, names[k] + " flow", dimension::volume_flow),
+          static_cast<int>(k)};
     for (auto& v : p.y) v /= mmHg;
     for (auto& v : q.y) v *= (inlet ? -1 : 1) / ml;
     keep_window(post, times, p);
@@ -99,28 +105,36 @@ void add_columns(const std::optional<CsvColumns>& t, Plot plot, const Wanted& wa
 void add_in_time(const fs::path& post, std::vector<Plot>& plots) {
   const auto difference = table(post, "pressure_difference.csv");
   const std::size_t every = difference ? (difference->headers.size() + most_stations - 2) / most_stations : 1;
-  add_columns(difference, {"Pressure of the true less that of the false lumen, by distance from the inlet", "time [s]",
-                           "pressure difference [mmHg]", true, {}},
-              [&](const std::string& header, std::size_t k) {
-                return (k - 1) % std::max<std::size_t>(every, 1) == 0 ? without_unit(header) : "";
-              },
-              plots);
-  add_columns(table(post, "tears.csv"),
-              {"Flow through the tears, into the false lumen", "time [s]", "flow [ml/s]", true, {}},
-              [](const std::string& header, std::size_t) {
-                const bool tear = header.find(" flow [ml/s]") != std::string::npos;
-                if (tear) return shown(header.substr(0, header.find(" flow [")));
-                return header.find("dV/dt") != std::string::npos ? std::string("dV/dt of the false lumen") : std::string();
-              },
-              plots);
-  add_columns(table(post, "flap.csv"), {"Displacement of the flap since the start", "time [s]", "displacement [mm]", true, {}},
-              [](const std::string& header, std::size_t) { return header.substr(0, header.find(" displacement")); }, plots);
-  add_columns(table(post, "stress.csv"), {"Von Mises stress that 99 % of a region stay below", "time [s]", "stress [kPa]", true, {}},
-              [](const std::string& header, std::size_t) {
-                const auto at = header.find(" von Mises stress p99 [");
-                return at == std::string::npos ? std::string() : shown(header.substr(0, at));
-              },
-              plots);
+  add_columns(
+      difference,
+      {"Pressure of the true less that of the false lumen, by distance from the inlet",
+       "time [s]",
+       "pressure difference [mmHg]",
+       true,
+       {}},
+      [&](const std::string& header, std::size_t k) {
+        return (k - 1) % std::max<std::size_t>(every, 1) == 0 ? without_unit(header) : "";
+      },
+      plots);
+  add_columns(
+      table(post, "tears.csv"), {"Flow through the tears, into the false lumen", "time [s]", "flow [ml/s]", true, {}},
+      [](const std::string& header, std::size_t) {
+        const bool tear = header.find(" flow [ml/s]") != std::string::npos;
+        if (tear) return shown(header.substr(0, header.find(" flow [")));
+        return header.find("dV/dt") != std::string::npos ? std::string("dV/dt of the false lumen") : std::string();
+      },
+      plots);
+  add_columns(
+      table(post, "flap.csv"), {"Displacement of the flap since the start", "time [s]", "displacement [mm]", true, {}},
+      [](const std::string& header, std::size_t) { return header.substr(0, header.find(" displacement")); }, plots);
+  add_columns(
+      table(post, "stress.csv"),
+      {"Von Mises stress that 99 % of a region stay below", "time [s]", "stress [kPa]", true, {}},
+      [](const std::string& header, std::size_t) {
+        const auto at = header.find(" von Mises stress p99 [");
+        return at == std::string::npos ? std::string() : shown(header.substr(0, at));
+      },
+      plots);
 }
 
 void add_along(const fs::path& post, std::vector<Plot>& plots) {
@@ -133,15 +147,21 @@ void add_along(const fs::path& post, std::vector<Plot>& plots) {
     return nullptr;
   };
   const bool two = column("false pressure mean") != nullptr;
-  for (const auto& [what, label] : {std::pair{"pressure", "pressure [mmHg]"}, {"flow", "flow downstream [ml/s]"}, {"area", "area [mm²]"}}) {
-    Plot plot{fmt::format("{} along the aorta: mean of the beat, and its extremes", what), "distance from the inlet [mm]", label, false, {}};
+  for (const auto& [what, label] :
+       {std::pair{"pressure", "pressure [mmHg]"}, {"flow", "flow downstream [ml/s]"}, {"area", "area [mm²]"}}) {
+    Plot plot{fmt::format("{} along the aorta: mean of the beat, and its extremes", what),
+              "distance from the inlet [mm]",
+              label,
+              false,
+              {}};
     plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
     for (int lumen = 0; lumen < (two ? 2 : 1); ++lumen)
       for (const char* statistic : {"mean", "largest", "smallest"})
         if (const auto* y = column(fmt::format("{} {} {}", lumen == 0 ? "true" : "false", what, statistic))) {
           const bool mean = statistic == std::string("mean");
           const std::string name = two ? (lumen == 0 ? "true lumen" : "false lumen") : "lumen";
-          plot.curves.push_back({mean ? name : fmt::format("{}, {}", name, statistic), distance, *y, mean ? lumen : lumen + 7});
+          plot.curves.push_back(
+              {mean ? name : fmt::format("{}, {}", name, statistic), distance, *y, mean ? lumen : lumen + 7});
         }
     plots.push_back(std::move(plot));
   }

@@ -27,11 +27,11 @@ struct Group {
 };
 
 struct Body {
-  std::string name;                                      ///< "surface" or "sections"
-  std::vector<Vec3<double>> points;                      ///< reference [m]
-  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< seen from outside counter-clockwise
-  std::vector<Group> groups;                             ///< cover all triangles, in order
-  std::vector<Quantity> quantities;                      ///< of one name "displacement" [mm] for all points: motion
+  std::string name;                                     ///< "surface" or "sections"
+  std::vector<Vec3<double>> points;                     ///< reference [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< seen from outside counter-clockwise
+  std::vector<Group> groups;                            ///< cover all triangles, in order
+  std::vector<Quantity> quantities;                     ///< of one name "displacement" [mm] for all points: motion
 };
 
 /// A name at a place.
@@ -67,8 +67,8 @@ struct Beat {
   std::vector<Body> bodies;
   std::vector<Label> labels;
   std::vector<Section> sections;
-  Vec3<double> view{{0, -1, 0}}, up{{0, 0, 1}};  ///< direction towards the camera, and up; 
-  std::vector<std::string> remarks;  ///< what is not shown, and why
+  Vec3<double> view{{0, -1, 0}}, up{{0, 0, 1}};  ///< direction towards the camera, and up;
+  std::vector<std::string> remarks;              ///< what is not shown, and why
 };
 
 }  // namespace tunica::viewer

@@ -98,7 +98,8 @@ Deviation deviation_of(std::vector<float> differences, double range) {
   Deviation d{0, 0, range};
   if (differences.empty() || range <= 0) return d;
   for (auto& x : differences) x = std::abs(x);
-  const auto at = differences.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(differences.size() - 1));
+  const auto at =
+      differences.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(differences.size() - 1));
   std::nth_element(differences.begin(), at, differences.end());
   d.most = static_cast<double>(*at) / range;
   d.largest = static_cast<double>(*std::max_element(at, differences.end())) / range;

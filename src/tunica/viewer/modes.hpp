@@ -10,9 +10,9 @@ namespace tunica::viewer {
 
 /// How far values differ from those that were given, as shares of their range (largest less smallest of all times).
 struct Deviation {
-  double most = 0;      ///< 99.9 % of the values differ by no more than this
-  double largest = 0;   ///< any value
-  double range = 0;     ///< in the unit of the values
+  double most = 0;     ///< 99.9 % of the values differ by no more than this
+  double largest = 0;  ///< any value
+  double range = 0;    ///< in the unit of the values
 };
 
 /// value[i](t) = mean_step * mean[i] + sum over the modes of weights[t] * step * values[i].

@@ -75,7 +75,8 @@ json range_of(const Quantity& q) {
   for (const auto& frame : q.frames)
     for (std::size_t i = 0; i < frame.size(); i += n) {
       double squares = 0;
-      for (std::size_t c = 0; c < n; ++c) squares += static_cast<double>(frame[i + c]) * static_cast<double>(frame[i + c]);
+      for (std::size_t c = 0; c < n; ++c)
+        squares += static_cast<double>(frame[i + c]) * static_cast<double>(frame[i + c]);
       values.push_back(n == 1 ? frame[i] : static_cast<float>(std::sqrt(squares)));
     }
   if (values.empty()) return {0, 1, 0, 1};
@@ -90,9 +91,10 @@ void refuse_what_is_not_finite(const Body& body, const Quantity& q) {
   for (const auto& frame : q.frames)
     for (const float v : frame)
       if (!std::isfinite(v))
-        throw SolverError(fmt::format("the view of {} cannot be made: `{}` has values that are not finite; look at the "
-                                      "fields of the run",
-                                      body.name, q.name));
+        throw SolverError(
+            fmt::format("the view of {} cannot be made: `{}` has values that are not finite; look at the "
+                        "fields of the run",
+                        body.name, q.name));
 }
 
 json packed_quantity(Store& store, const Quantity& q, double tolerance, PackedQuantity& made) {
@@ -105,11 +107,17 @@ json packed_quantity(Store& store, const Quantity& q, double tolerance, PackedQu
     for (const double w : mode.weights) weights.push_back(std::round(1e7 * w) / 1e7);
     modes.push_back({{"v", add_values(store, mode.values, q.components)}, {"s", mode.step}, {"c", weights}});
   }
-  return {{"name", q.name},   {"unit", q.unit},   {"of", q.of},
-          {"components", q.components},           {"first", q.first},
-          {"count", q.count}, {"range", range_of(q)},
+  return {{"name", q.name},
+          {"unit", q.unit},
+          {"of", q.of},
+          {"components", q.components},
+          {"first", q.first},
+          {"count", q.count},
+          {"range", range_of(q)},
           {"mean", add_values(store, m.mean, q.components)},
-          {"ms", m.mean_step}, {"modes", modes},  {"most", m.deviation.most},
+          {"ms", m.mean_step},
+          {"modes", modes},
+          {"most", m.deviation.most},
           {"largest", m.deviation.largest}};
 }
 
@@ -121,7 +129,8 @@ json packed_shape(Store& store, const Body& body, double step, const Vec3<double
   json groups = json::array();
   for (const auto& g : body.groups)
     groups.push_back({{"kind", g.kind}, {"name", g.name}, {"first", 3 * g.first}, {"count", 3 * g.count}});
-  return {{"name", body.name}, {"points", store.add(places, 2)}, {"triangles", store.add(nodes, 4)}, {"groups", groups}};
+  return {
+      {"name", body.name}, {"points", store.add(places, 2)}, {"triangles", store.add(nodes, 4)}, {"groups", groups}};
 }
 
 void corners_of(const std::vector<Body>& bodies, Vec3<double>& low, Vec3<double>& high) {
@@ -138,8 +147,13 @@ json head_of(const Beat& beat) {
     labels.push_back({{"text", l.text}, {"kind", l.kind}, {"place", vector_of(l.place, mm)}});
   for (const auto& s : beat.sections)
     sections.push_back({{"name", s.name}, {"centre", vector_of(s.centre, mm)}, {"normal", vector_of(s.normal, 1)}});
-  return {{"title", beat.title}, {"times", beat.times},           {"labels", labels},   {"sections", sections},
-          {"view", vector_of(beat.view, 1)}, {"up", vector_of(beat.up, 1)}, {"start", beat.start}};
+  return {{"title", beat.title},
+          {"times", beat.times},
+          {"labels", labels},
+          {"sections", sections},
+          {"view", vector_of(beat.view, 1)},
+          {"up", vector_of(beat.up, 1)},
+          {"start", beat.start}};
 }
 
 }  // namespace
@@ -164,7 +178,8 @@ PackedBeat pack(Beat beat, const PackOptions& options) {
     shape["quantities"] = json::array();
     for (std::size_t k = 0; k < body.quantities.size(); ++k) {
       const auto& q = body.quantities[k];
-      PackedQuantity made{.body = body.name, .name = q.name, .unit = q.unit, .modes = 0, .compression = {}, .simplification = {}};
+      PackedQuantity made{
+          .body = body.name, .name = q.name, .unit = q.unit, .modes = 0, .compression = {}, .simplification = {}};
       shape["quantities"].push_back(packed_quantity(store, q, options.tolerance, made));
       if (!simpler.deviations.empty()) made.simplification = simpler.deviations[k];
       packed.quantities.push_back(std::move(made));

@@ -24,17 +24,16 @@ struct PackedQuantity {
 };
 
 struct PackedBeat {
-  std::string head;                     ///< JSON: names, units, places of the arrays in the data, all but large numbers
-  std::string data;                     ///< zlib stream, base64
+  std::string head;  ///< JSON: names, units, places of the arrays in the data, all but large numbers
+  std::string data;  ///< zlib stream, base64
   std::vector<PackedQuantity> quantities;
   std::vector<Simplification> simplifications;  ///< of the bodies
-  double place_step = 0;                ///< to which coordinates are rounded [m]
+  double place_step = 0;                        ///< to which coordinates are rounded [m]
 };
 
 /// Coordinates of 16 bits, quantities as modes (modes.hpp), differences of neighbours as bytes, zlib; see viewer.js,
 /// which reads it. Errors are measured with what is written. Throws SolverError where a quantity holds values that are
 /// not finite.
 PackedBeat pack(Beat beat, const PackOptions& options);
-
 
 }  // namespace tunica::viewer

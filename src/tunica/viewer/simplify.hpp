@@ -12,7 +12,7 @@ void order(Body& body);
 
 struct Simplification {
   std::size_t triangles_before = 0, triangles = 0;
-  double distance = 0;  ///< of any point that was there to the surface that is left [m]
+  double distance = 0;                ///< of any point that was there to the surface that is left [m]
   std::vector<Deviation> deviations;  ///< of each quantity, at the points that are gone, over all times
 };
 

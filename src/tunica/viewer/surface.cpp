@@ -42,7 +42,8 @@ std::set<std::string> rings_of(const MeshData& data, const FaceRoles& roles) {
 }
 
 bool has_wall(const MeshData& data) {
-  return std::any_of(data.regions.begin(), data.regions.end(), [](const auto& r) { return r.kind == RegionKind::wall; });
+  return std::any_of(data.regions.begin(), data.regions.end(),
+                     [](const auto& r) { return r.kind == RegionKind::wall; });
 }
 
 using Groups = std::map<std::pair<std::string, std::string>, std::vector<Nodes>>;  ///< by kind and name

@@ -38,8 +38,10 @@ std::string data_element(const std::string& id, std::string text, const char* ty
 json rounded(const std::vector<double>& values) {
   json list = json::array();
   for (const double v : values) {
-    if (!std::isfinite(v)) list.push_back(nullptr);
-    else list.push_back(v == 0 ? 0.0 : std::stod(fmt::format("{:.7g}", v)));
+    if (!std::isfinite(v))
+      list.push_back(nullptr);
+    else
+      list.push_back(v == 0 ? 0.0 : std::stod(fmt::format("{:.7g}", v)));
   }
   return list;
 }
@@ -47,9 +49,13 @@ json rounded(const std::vector<double>& values) {
 json data_of(const Plot& plot) {
   json curves = json::array();
   for (const auto& c : plot.curves)
-    curves.push_back({{"name", c.name}, {"x", rounded(c.x)}, {"y", rounded(c.y)}, {"style", c.style}, {"role", c.role}});
-  return {{"title", plot.title},     {"x_label", plot.x_label}, {"y_label", plot.y_label},
-          {"in_time", plot.in_time}, {"curves", curves}};
+    curves.push_back(
+        {{"name", c.name}, {"x", rounded(c.x)}, {"y", rounded(c.y)}, {"style", c.style}, {"role", c.role}});
+  return {{"title", plot.title},
+          {"x_label", plot.x_label},
+          {"y_label", plot.y_label},
+          {"in_time", plot.in_time},
+          {"curves", curves}};
 }
 
 std::string percent(double share) { return share == 0 ? "0" : fmt::format("{:.2g}", 100 * share); }
@@ -58,7 +64,8 @@ std::string percent(double share) { return share == 0 ? "0" : fmt::format("{:.2g
 
 std::string begin_page(const std::string& title) {
   std::string scripts;
-  for (const auto& asset : {assets::three(), assets::beat(), assets::scene(), assets::still(), assets::panel(), assets::plots()})
+  for (const auto& asset :
+       {assets::three(), assets::beat(), assets::scene(), assets::still(), assets::panel(), assets::plots()})
     scripts.append(" ").append(source_of(asset));
   page::Head head;
   head.policy = fmt::format(
@@ -80,8 +87,8 @@ std::string accuracy(const PackedBeat& beat) {
     rows.push_back({page::escaped(q.name), q.body, std::to_string(q.modes), percent(q.compression.most),
                     percent(q.compression.largest), percent(q.simplification.most),
                     fmt::format("{:.3g} {}", q.compression.range, page::escaped(q.unit))});
-  std::string text = page::table({"quantity", "on", "modes", "99.9 % of values within [% of range]", "largest [% of range]",
-                                  "simplification, 99.9 % within [% of range]", "range"},
+  std::string text = page::table({"quantity", "on", "modes", "99.9 % of values within [% of range]",
+                                  "largest [% of range]", "simplification, 99.9 % within [% of range]", "range"},
                                  rows);
   text += fmt::format("<p>Coordinates are rounded to {:.2g} mm.", 1e3 * beat.place_step);
   for (const auto& s : beat.simplifications)
@@ -95,10 +102,9 @@ std::string plot(const std::vector<Plot>& plots, std::size_t index, const std::s
   std::vector<drawing::Series> series;
   for (const auto& c : plots[index].curves)
     series.push_back({.name = c.name, .x = c.x, .y = c.y, .dashed = c.role == "target", .colour = c.style % 7});
-  const std::string svg = drawing::draw_plot(series, {.title = plots[index].title,
-                                                      .x_label = plots[index].x_label,
-                                                      .y_label = plots[index].y_label,
-                                                      .width = 560});
+  const std::string svg = drawing::draw_plot(
+      series,
+      {.title = plots[index].title, .x_label = plots[index].x_label, .y_label = plots[index].y_label, .width = 560});
   return fmt::format("<figure data-plot=\"{}\">{}<figcaption>{}</figcaption></figure>\n", index, svg, caption);
 }
 

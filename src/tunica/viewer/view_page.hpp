@@ -16,7 +16,8 @@ std::string begin_page(const std::string& title);
 std::string view(const PackedBeat& beat);
 /// How exact the view is, as a table: errors of modes and whole numbers, and of simplified surfaces.
 std::string accuracy(const PackedBeat& beat);
-/// A place in the page for plot number `index` of those that end_page() gets, with a drawing for readers without scripts.
+/// A place in the page for plot number `index` of those that end_page() gets, with a drawing for readers without
+/// scripts.
 std::string plot(const std::vector<Plot>& plots, std::size_t index, const std::string& caption);
 /// The numbers of the plots, the scripts, and the end of the page. `with_view`: the page holds a view().
 std::string end_page(const std::vector<Plot>& plots, bool with_view);

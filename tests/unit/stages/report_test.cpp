@@ -45,5 +45,37 @@ TEST(Report, MarksFiguresWhereTheSchemeDisturbsTheFlow) {
   EXPECT_NE(unmarked.find("<td>12.25</td>"), std::string::npos);
 }
 
+std::size_t place(const std::string& page, const std::string& text) {
+  const auto at = page.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  return at;
+}
+
+TEST(Report, OpensOnWhatWasFoundBesideTargets) {
+  const SharedFolder folder(MPI_COMM_SELF);
+  folder.write("tuning.json", R"({"tolerance": 0.02, "status": "converged", "cycles": [],
+      "targets": {"systolic [Pa]": 16665, "diastolic [Pa]": 9999}, "target fractions": {"lumen_outlet": 0.5}})");
+  folder.write("post.json", R"({"openings": [
+      {"name": "lumen_inlet", "inlet": true, "pressure": {"systolic_mmHg": 131.0, "diastolic_mmHg": 75.5}},
+      {"name": "lumen_outlet", "inlet": false, "share_of_outflow": 0.495}],
+      "wall_shear": {"tawss_Pa": {"mean": 0.25}}, "left_out": [{"part": "flap", "why": "the wall has none"}]})");
+  ReportCase c;
+  c.case_file = folder.write("case.yaml", "{}");
+  c.stages["post"] = c.stages["outlets"] = folder.path();
+  c.settings.pictures = false;
+  c.output = folder.path();
+  const std::string page = test::slurp(report_to_file(c, {"1", "abc"}, true, [](const std::string&) {}));
+  EXPECT_LT(place(page, "id=\"answer\""), place(page, "id=\"mesh\""));
+  EXPECT_LT(place(page, "id=\"mesh\""), place(page, "id=\"run\""));
+  place(page, "<td>131</td><td>mmHg</td><td>target 125.0 ± 2 %</td><td><span class=\"bad\">outside</span></td>");
+  place(page, "<td>75.5</td><td>mmHg</td><td>target 75.0 ± 2 %</td><td><span class=\"good\">within</span></td>");
+  place(page, "<td>49.5</td><td>%</td><td>target 50 ± 2 %</td><td><span class=\"good\">within</span></td>");
+  place(page,
+        "<td>0.25</td><td>Pa</td><td>1 to 7 in healthy arteries (Malek et al. 1999, JAMA 282:2035)</td>"
+        "<td><span class=\"bad\">outside</span></td>");
+  place(page, "Left out: flap");
+  place(page, "default-src 'none'; script-src 'sha256-");
+}
+
 }  // namespace
 }  // namespace tunica::stages

@@ -71,7 +71,8 @@ TEST(Surface, OfARigidVesselHasAnInsideOfItsOwn) {
 
 TEST(Sections, FillThePlane) {
   const auto data = tube_of(0.002);
-  const auto s = sections_of(data, {{"half way", {{0, 0, 0.0201}}, {{0, 0, 1}}, 0}, {"inclined", {{0, 0, 0.02}}, {{0, 0.6, 0.8}}, 0}});
+  const auto s = sections_of(
+      data, {{"half way", {{0, 0, 0.0201}}, {{0, 0, 1}}, 0}, {"inclined", {{0, 0, 0.02}}, {{0, 0.6, 0.8}}, 0}});
   ASSERT_EQ(s.body.groups.size(), 4U);
   const auto outer = surface_of(data, with_wall);
   // The polygon of the lumen at any height is that of its ends.
@@ -81,7 +82,8 @@ TEST(Sections, FillThePlane) {
   // A linear function is met exactly.
   for (std::size_t i = 0; i < s.blood.size(); ++i) {
     const auto& p = s.blood[i];
-    const auto x = (1 - p.t) * data.points[static_cast<std::size_t>(p.a)] + p.t * data.points[static_cast<std::size_t>(p.b)];
+    const auto x =
+        (1 - p.t) * data.points[static_cast<std::size_t>(p.a)] + p.t * data.points[static_cast<std::size_t>(p.b)];
     EXPECT_LT(norm(x - s.body.points[s.blood_first + i]), 1e-12);
   }
 }
@@ -142,8 +144,7 @@ TEST(Order, KeepsPointsWithTheirValues) {
   order(body);
   const auto& q = body.quantities[0];
   ASSERT_EQ(q.count, body.points.size());
-  for (std::size_t i = 0; i < q.count; ++i)
-    EXPECT_NEAR(q.frames[0][i], 1e3 * body.points[i][2], 1e-5);
+  for (std::size_t i = 0; i < q.count; ++i) EXPECT_NEAR(q.frames[0][i], 1e3 * body.points[i][2], 1e-5);
   // Neighbours follow each other.
   double steps = 0;
   for (const auto& t : body.triangles) steps += std::abs(static_cast<double>(t[1]) - static_cast<double>(t[0]));

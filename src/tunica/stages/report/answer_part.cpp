@@ -27,7 +27,9 @@ struct Beside {
 
 /// Published values, with their source; a case may lie outside for good reasons.
 const Beside physiological_shear = {1, 7, "1 to 7 in healthy arteries (Malek et al. 1999, JAMA 282:2035)"};
-const Beside strength = {0, 1180, "tissue of aneurysms tears at 1180 ± 120, other at 1800 ± 240 (Vorp et al. 2003, Ann Thorac Surg 75:1210)"};
+const Beside strength = {
+    0, 1180,
+    "tissue of aneurysms tears at 1180 ± 120, other at 1800 ± 240 (Vorp et al. 2003, Ann Thorac Surg 75:1210)"};
 
 /// Rows of a table of figures: what, value, beside what.
 class Answers {
@@ -40,7 +42,9 @@ class Answers {
     if (!value.is_number()) return;
     const bool outside = beside != nullptr && (value.get<double>() < beside->low || value.get<double>() > beside->high);
     rows_.push_back({what, figure(value, 3) + band(r_, path) + mark(of), unit, beside == nullptr ? "" : beside->text,
-                     beside == nullptr ? "" : outside ? "<span class=\"bad\">outside</span>" : "<span class=\"good\">within</span>"});
+                     beside == nullptr ? ""
+                     : outside         ? "<span class=\"bad\">outside</span>"
+                                       : "<span class=\"good\">within</span>"});
   }
   std::string table(const std::string& caption) const {
     return rows_.empty() ? "" : page::table({"", "value", "unit", "beside", ""}, rows_, caption);
@@ -67,7 +71,8 @@ void add_pressures(const Results& r, Answers& answers) {
       Beside beside{0, 0, ""};
       if (target.is_number()) {
         const double asked = target.get<double>() / mmHg;
-        beside = {asked * (1 - tolerance), asked * (1 + tolerance), fmt::format("target {:.1f} ± {:.2g} %", asked, 100 * tolerance)};
+        beside = {asked * (1 - tolerance), asked * (1 + tolerance),
+                  fmt::format("target {:.1f} ± {:.2g} %", asked, 100 * tolerance)};
       }
       const std::string key = fmt::format("pressure/{}_mmHg", when);
       answers.add(fmt::format("{} pressure at the inlet", when), at(o, key), "mmHg",
@@ -84,10 +89,12 @@ void add_shares(const Results& r, Answers& answers) {
     Beside beside{0, 0, ""};
     if (target.is_number()) {
       const double asked = 100 * target.get<double>();
-      beside = {asked * (1 - tolerance), asked * (1 + tolerance), fmt::format("target {:.3g} ± {:.2g} %", asked, 100 * tolerance)};
+      beside = {asked * (1 - tolerance), asked * (1 + tolerance),
+                fmt::format("target {:.3g} ± {:.2g} %", asked, 100 * tolerance)};
     }
     answers.add("share of the outflow, " + readable(o.value("name", "")), 100 * share.get<double>(), "%",
-                fmt::format("openings/{}/share_of_outflow", o.value("name", "")), o, target.is_number() ? &beside : nullptr);
+                fmt::format("openings/{}/share_of_outflow", o.value("name", "")), o,
+                target.is_number() ? &beside : nullptr);
   }
 }
 
@@ -98,12 +105,14 @@ void add_difference(const Results& r, Answers& answers) {
   const json stations = at(r.post, "stations");
   for (const auto& s : stations)
     for (const char* extreme : {"largest", "smallest"})
-      if (const json d = at(s, fmt::format("true_minus_false_pressure/{}_mmHg", extreme)); d.is_number() && std::abs(d.get<double>()) > std::abs(value)) {
+      if (const json d = at(s, fmt::format("true_minus_false_pressure/{}_mmHg", extreme));
+          d.is_number() && std::abs(d.get<double>()) > std::abs(value)) {
         most = &s;
         value = d.get<double>();
       }
   if (most == nullptr) return;
-  answers.add(fmt::format("true less false lumen pressure, largest in the beat, {:.0f} mm from the inlet", most->value("distance_mm", 0.0)),
+  answers.add(fmt::format("true less false lumen pressure, largest in the beat, {:.0f} mm from the inlet",
+                          most->value("distance_mm", 0.0)),
               value, "mmHg", "", *most);
 }
 
@@ -114,15 +123,18 @@ void add_lumens(const Results& r, Answers& answers) {
     answers.add(name + ": into the false lumen in a beat", at(t, "volume_into_false_lumen_ml"), "ml", "", t);
     answers.add(name + ": out of it", at(t, "volume_out_of_false_lumen_ml"), "ml", "", t);
   }
-  answers.add("ejection fraction of the false lumen", at(lumen, "ejection_fraction"), "1", "false_lumen/ejection_fraction", lumen);
+  answers.add("ejection fraction of the false lumen", at(lumen, "ejection_fraction"), "1",
+              "false_lumen/ejection_fraction", lumen);
   answers.add("largest displacement of the flap since the start", at(flap, "largest_displacement_mm"), "mm",
               "flap/largest_displacement_mm", flap);
 }
 
 void add_wall(const Results& r, Answers& answers) {
   const json shear = at(r.post, "wall_shear");
-  answers.add("TAWSS, mean over the wall", at(shear, "tawss_Pa/mean"), "Pa", "wall_shear/tawss_Pa/mean", shear, &physiological_shear);
-  answers.add("TAWSS that 99 % of the wall stay below", at(shear, "tawss_Pa/p99"), "Pa", "wall_shear/tawss_Pa/p99", shear);
+  answers.add("TAWSS, mean over the wall", at(shear, "tawss_Pa/mean"), "Pa", "wall_shear/tawss_Pa/mean", shear,
+              &physiological_shear);
+  answers.add("TAWSS that 99 % of the wall stay below", at(shear, "tawss_Pa/p99"), "Pa", "wall_shear/tawss_Pa/p99",
+              shear);
 }
 
 std::string stress_table(const Results& r) {
@@ -133,11 +145,14 @@ std::string stress_table(const Results& r) {
       const json most = at(region, fmt::format("{}/cycle_maximum", key));
       if (!most.is_object()) continue;
       head.resize(2);
-      std::vector<std::string> cells = {readable(region.value("name", "")), key[0] == 'v' ? "von Mises" : "first principal"};
+      std::vector<std::string> cells = {readable(region.value("name", "")),
+                                        key[0] == 'v' ? "von Mises" : "first principal"};
       double last = 0;
       for (const auto& [percent, value] : most.items()) {
         head.push_back(percent.substr(1) + " % [kPa]");
-        cells.push_back(figure(value, 3) + band(r, fmt::format("stress/{}/{}/cycle_maximum/{}", region.value("name", ""), key, percent)) + mark(region));
+        cells.push_back(figure(value, 3) +
+                        band(r, fmt::format("stress/{}/{}/cycle_maximum/{}", region.value("name", ""), key, percent)) +
+                        mark(region));
         if (value.is_number()) last = std::max(last, value.get<double>());
       }
       head.push_back("");
@@ -145,22 +160,32 @@ std::string stress_table(const Results& r) {
       rows.push_back(cells);
     }
   return rows.empty() ? ""
-                      : page::table(head, rows, "Stress in the wall: so many per cent of a region's volume stay below, largest of the beat; beside it: " + strength.text + " kPa");
+                      : page::table(head, rows,
+                                    "Stress in the wall: so many per cent of a region's volume stay below, largest of "
+                                    "the beat; beside it: " +
+                                        strength.text + " kPa");
 }
 
 /// Does the pressure at the inlet come back to where it began?
 std::string periodic_text(const std::vector<viewer::Plot>& plots, const json& post) {
-  if (plots.empty() || !plots[0].in_time || plots[0].curves.empty() || !post.is_object() || !post.contains("openings")) return "";
+  if (plots.empty() || !plots[0].in_time || plots[0].curves.empty() || !post.is_object() || !post.contains("openings"))
+    return "";
   std::size_t inlet = 0;
   while (inlet < post["openings"].size() && !post["openings"][inlet].value("inlet", false)) ++inlet;
   if (inlet >= plots[0].curves.size() || plots[0].curves[inlet].y.size() < 3) return "";
   const auto& y = plots[0].curves[inlet].y;
-  const double pulse = *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()), gap = y.back() - y.front();
+  const double pulse = *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()),
+               gap = y.back() - y.front();
   const double share = 100 * std::abs(gap) / std::max(pulse, 1e-12);
   const bool periodic = share < 3;
-  return fmt::format("<li><span class=\"{}\">{}</span>: the pressure at the inlet ends {:.2g} mmHg {} where the window began, {:.2g} % of the pulse pressure{}.</li>\n",
-                     periodic ? "good" : "bad", periodic ? "The beat is periodic" : "The beat is not periodic", std::abs(gap), gap < 0 ? "below" : "above", share,
-                     periodic ? "" : "; mean values and volumes are those of this window, not of a steady rhythm (more cycles: `time.cycles`)");
+  return fmt::format(
+      "<li><span class=\"{}\">{}</span>: the pressure at the inlet ends {:.2g} mmHg {} where the window began, {:.2g} "
+      "% of the pulse pressure{}.</li>\n",
+      periodic ? "good" : "bad", periodic ? "The beat is periodic" : "The beat is not periodic", std::abs(gap),
+      gap < 0 ? "below" : "above", share,
+      periodic ? ""
+               : "; mean values and volumes are those of this window, not of a steady rhythm (more cycles: "
+                 "<code>time.cycles</code>)");
 }
 
 std::string resolution_text(const Results& r) {
@@ -170,17 +195,25 @@ std::string resolution_text(const Results& r) {
   };
   std::string dissipated;
   for (const auto& p : at(r.post, "numerical_dissipation/parts"))
-    if (p.value("above_limit", false)) dissipated += (dissipated.empty() ? "" : ", ") + page::escaped(p.value("part", ""));
+    if (p.value("above_limit", false))
+      dissipated += (dissipated.empty() ? "" : ", ") + page::escaped(p.value("part", ""));
   if (at(r.post, "numerical_dissipation").is_object())
     item(dissipated.empty(), dissipated.empty() ? "The flow is not damped by the scheme" : "The mesh damps the flow",
          dissipated.empty() ? "it takes less than half of what viscosity takes"
-                            : "the scheme takes more than half of what viscosity takes in: " + dissipated + "; figures there bear a † and depend on the mesh");
+                            : "the scheme takes more than half of what viscosity takes in: " + dissipated +
+                                  "; figures there bear a † and depend on the mesh");
   const json across = at(r.manifest, "mesh/elements_across");
   double least = 1e30;
   for (const auto& part : across) least = std::min(least, part.value("median", 1e30));
-  if (least < 1e29) item(least >= 10, "Wall shear", fmt::format("the coarsest part has {:.2g} elements across; flow needs 4 quadratic or 10 linear ones, and wall shear is the first to suffer", least));
-  item(r.bands.is_object(), r.bands.is_object() ? "Errors of mesh and step are known" : "Errors of mesh and step are not known",
-       r.bands.is_object() ? "± beside the figures, from finer meshes and smaller steps" : "`tunica converge` finds them from finer meshes and smaller steps");
+  if (least < 1e29)
+    item(least >= 10, "Wall shear",
+         fmt::format("the coarsest part has {:.2g} elements across; flow needs 4 quadratic or 10 linear ones, and wall "
+                     "shear is the first to suffer",
+                     least));
+  item(r.bands.is_object(),
+       r.bands.is_object() ? "Errors of mesh and step are known" : "Errors of mesh and step are not known",
+       r.bands.is_object() ? "± beside the figures, from finer meshes and smaller steps"
+                           : "<code>tunica converge</code> finds them from finer meshes and smaller steps");
   for (const auto& left : at(r.post, "left_out"))
     item(false, "Left out: " + page::escaped(left.value("part", "")), page::escaped(left.value("why", "")));
   return text;
@@ -190,14 +223,16 @@ std::string resolution_text(const Results& r) {
 
 std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots) {
   if (!r.post.is_object())
-    return "<h2 id=\"answer\">What was found</h2>\n" + missing("Figures of the cycle", "the case has no stage `post`, or it is not done");
+    return "<h2 id=\"answer\">What was found</h2>\n" +
+           missing("Figures of the cycle", "the case has no stage `post`, or it is not done");
   Answers pressures(r), lumens(r);
   add_pressures(r, pressures);
   add_shares(r, pressures);
   add_difference(r, lumens);
   add_lumens(r, lumens);
   add_wall(r, lumens);
-  return "<h2 id=\"answer\">What was found</h2>\n" + pressures.table("Pressure at the inlet and shares of the outflow, of the computed beat") +
+  return "<h2 id=\"answer\">What was found</h2>\n" +
+         pressures.table("Pressure at the inlet and shares of the outflow, of the computed beat") +
          lumens.table("Lumens, flap and wall shear") + stress_table(r) + "<h3>How far it can be trusted</h3>\n<ul>\n" +
          periodic_text(plots, r.post) + resolution_text(r) + "</ul>\n";
 }

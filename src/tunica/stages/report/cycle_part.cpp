@@ -190,8 +190,9 @@ std::string cycle_part(const Results& r, const std::vector<viewer::Plot>& plots)
   if (const json d = at(r.post, "numerical_dissipation"); !d.is_null()) text += dissipation_table(d);
   return text + openings(r) + curves(plots, "Pressure at the openings") + curves(plots, "Flow at the openings") +
          difference(r) + curves(plots, "Pressure of the true") + curves(plots, "Pressure along") +
-         curves(plots, "Flow along") + curves(plots, "Area along") + tears(r) + curves(plots, "Flow through the tears") +
-         flap(r) + curves(plots, "Displacement of the flap") + wall_shear(r) + stress(r) + curves(plots, "Von Mises");
+         curves(plots, "Flow along") + curves(plots, "Area along") + tears(r) +
+         curves(plots, "Flow through the tears") + flap(r) + curves(plots, "Displacement of the flap") + wall_shear(r) +
+         stress(r) + curves(plots, "Von Mises");
 }
 
 }  // namespace tunica::stages::report

@@ -43,8 +43,8 @@ std::string missing(const std::string& what, const std::string& why);
 std::string drawings(const std::filesystem::path& folder,
                      const std::vector<std::pair<std::string, std::string>>& captions_by_file);
 
-/// Figures beside targets and published values; is the beat periodic, what is not resolved. The first of `plots` are the
-/// pressures of the openings.
+/// Figures beside targets and published values; is the beat periodic, what is not resolved. The first of `plots` are
+/// the pressures of the openings.
 std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots);
 std::string summary_part(const Results& r, const artifacts::ProgramVersion& program);
 std::string mesh_part(const Results& r);

@@ -27,7 +27,8 @@ nlohmann::json figures_of(const fs::path& folder) {
 }
 
 std::string plots_of(const std::vector<viewer::Plot>& plots) {
-  std::string text = plots.empty() ? "" : "<h2>Curves</h2>\n<p class=\"screen\">A click shows that instant above; drag to zoom.</p>\n";
+  std::string text =
+      plots.empty() ? "" : "<h2>Curves</h2>\n<p class=\"screen\">A click shows that instant above; drag to zoom.</p>\n";
   for (std::size_t k = 0; k < plots.size(); ++k) text += viewer::plot(plots, k, page::escaped(plots[k].title));
   return text;
 }
@@ -47,7 +48,8 @@ void write_view(const ViewRequest& request, const files::Say& say) {
   const auto remarks = beat.remarks;
   say("view: modes and page");
   const auto packed = viewer::pack(std::move(beat), request.packing);
-  std::string text = viewer::begin_page(title) + viewer::view(packed) + plots_of(plots) + "<h2>How exact the view is</h2>\n";
+  std::string text =
+      viewer::begin_page(title) + viewer::view(packed) + plots_of(plots) + "<h2>How exact the view is</h2>\n";
   for (const auto& remark : remarks) text += fmt::format("<p class=\"missing\">{}.</p>\n", page::escaped(remark));
   files::write_atomically(request.output, text + viewer::accuracy(packed) + viewer::end_page(plots, true));
 }

@@ -124,9 +124,9 @@
       const normal = s.normal.map(v => sign * v);
       state.plane = { normal, level: normal.reduce((sum, v, k) => sum + v * s.centre[k], 0) };
     } else if (kind !== 'off') {
-      const k = 'xyz'.indexOf(kind), level = beat.low[k] + place * (beat.high[k] - beat.low[k]);
-      state.plane = { normal: [0, 1, 2].map(c => c === k ? sign : 0), level: sign * level };
-      name = `${kind} = ${level.toFixed(1)} mm`;
+      const k = 'xyz'.indexOf(kind), towards = scene.axis(2)[kind] >= 0 ? sign : -sign, level = beat.low[k] + place * (beat.high[k] - beat.low[k]);
+      state.plane = { normal: [0, 1, 2].map(c => c === k ? towards : 0), level: towards * level };  // the near side goes
+      name = `${kind} = ${tunica.number(Math.round(10 * level) / 10)} mm`;
     }
     const all = byId('all-sections').checked;
     state.sections = group => group.name === shown || all && group.kind === 'section' && group.name !== 'along the aorta';
@@ -204,6 +204,7 @@
       .sort((a, b) => a.z - b.z).forEach(({ k, x, y }) => {
         const line = document.createElementNS(xml, 'line'), text = document.createElementNS(xml, 'text');
         for (const [n, v] of [['x2', x], ['y2', y], ['class', `axis-${k}`]]) line.setAttribute(n, v);
+        text.style.opacity = Math.min(1, Math.hypot(x, y) / 10);
         for (const [n, v] of [['x', 1.32 * x], ['y', 1.32 * y + 4], ['text-anchor', 'middle']]) text.setAttribute(n, v);
         text.textContent = names[k];
         svg.append(line, text);

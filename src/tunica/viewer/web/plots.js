@@ -5,7 +5,7 @@
   if (!source) return;
   const plots = JSON.parse(source.textContent), xml = 'http://www.w3.org/2000/svg';
   const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#b8860b', '#56b4e9', '#7a5195'], dashes = ['', '8 3', '2 3', '9 3 2 3'];
-  const box = { width: 640, height: 330, left: 62, right: 14, top: 12, bottom: 46 };
+  const box = { width: 560, height: 310, left: 62, right: 14, top: 12, bottom: 46 };
   const ticks = (low, high, count) => {
     const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map(f => f * power).find(s => s >= 0.999 * raw), list = [];
     for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) list.push(i === 0 ? 0 : +(i * step).toPrecision(12));
@@ -71,7 +71,7 @@
         button.append(line, c.name.replaceAll('_', ' '));
         list.append(button);
       });
-      this.figure.querySelector('figcaption')?.before(list) ?? this.figure.append(list);
+      this.figure.insertBefore(list, this.figure.querySelector('figcaption'));
     }
 
     add(name, attributes, content = '', parent = this.svg) {
@@ -171,6 +171,7 @@
     }
   }
 
+  box.width = Math.max(300, Math.min(box.width, document.querySelector('main').clientWidth));  // letters of one size on a phone too
   const drawn = [...document.querySelectorAll('figure[data-plot]')].map(f => new Plot(f, plots[+f.dataset.plot]));
   document.addEventListener('tunica-time', e => drawn.forEach(p => p.showInstant(e.detail)));
 
