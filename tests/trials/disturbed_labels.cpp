@@ -310,6 +310,14 @@ Disturbed thrombus(const Body& body, std::mt19937& random) {
   return d;
 }
 
+Disturbed named_thrombus(const Body& body, std::mt19937& random) {
+  auto d = thrombus(body, random);
+  d.right = Right::mesh;
+  d.settings.labels.thrombus = 3;
+  d.what += " by name";
+  return d;
+}
+
 Disturbed swapped(const Body& body, std::mt19937& random) {
   auto d = undisturbed(body, usual_voxel(random));
   std::swap(d.settings.labels.true_lumen, *d.settings.labels.false_lumen);
@@ -343,6 +351,7 @@ const std::map<std::string, Disturb>& kinds() {
       {"bridge", bridge},
       {"cut_bridge", cut_bridge},
       {"thrombus", thrombus},
+      {"named_thrombus", named_thrombus},
       {"swapped", swapped},
   };
   return all;

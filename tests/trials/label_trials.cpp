@@ -85,6 +85,13 @@ double thickness_off(const Body& body, const TriangleSurface& surface) {
 std::string faults(const Body& body, const std::string& kind, const LabelSurface& made, std::string& figures) {
   std::string result;
   const auto genus = geometry::genus(made.lumen, std::ssize(made.ends));
+  if (kind == "named_thrombus") {  // the clot may have closed a tear
+    const double clot = geometry::enclosed_volume(closed(*made.with_thrombus)) / lumen_volume(body.model) - 1;
+    figures = fmt::format("{} tears, lumen and thrombus {:+.1f} % of the lumen", made.tears.size(), 100 * clot);
+    if (genus + 1 != std::ssize(made.tears)) result += fmt::format(" genus {}", genus);
+    if (made.ends.size() != body.model.openings().size()) result += fmt::format(" {} openings", made.ends.size());
+    return std::abs(clot) > 0.05 ? result + fmt::format(" volume {:+.1f} %", 100 * clot) : result;
+  }
   if (genus != 1) result += fmt::format(" genus {}", genus);
   if (made.ends.size() != body.model.openings().size()) result += fmt::format(" {} openings", made.ends.size());
   if (made.tears.size() != 2) result += fmt::format(" {} tears", made.tears.size());
@@ -115,6 +122,7 @@ void write_case(const std::filesystem::path& folder, const std::string& name, co
       file << fmt::format("        - {{centre: [{:.2f} mm, {:.2f} mm, {:.2f} mm], diameter: {:.2f} mm}}\n",
                           1e3 * tear.centre[0], 1e3 * tear.centre[1], 1e3 * tear.centre[2], 1e3 * tear.diameter);
   }
+  if (const auto& label = d.settings.labels.thrombus) file << fmt::format("    thrombus: {}\n", *label);
   for (const auto& [repair, key] : {std::pair{Repair::slices, "slices"}, std::pair{Repair::bridges, "bridges"}})
     if (d.settings.repairs[repair]) file << "    repair: [" << key << "]\n";
   file << "    aorta_ends: [abdominal_aorta]\nsize: coarse\noutput: mesh_" << name << "\n";

@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "tunica/geometry/nearby_search.hpp"
+
 namespace tunica::geometry {
 
 namespace {
@@ -29,18 +31,26 @@ double size_across(double diameter, const SizeSettings& settings) {
 }
 
 /// Ball that touches the surface of `lumen` at p, where its normal is n, and a wall that faces p: its diameter and the
-/// triangle there. A large ball shrinks until no such wall is within it.
+/// triangle there. A large ball shrinks until no such wall is within it. `near`: triangles where balls beside this one
+/// touch, which make it small at once; -1 where none is known.
 std::pair<double, std::int64_t> largest_ball(const TriangleTree& lumen, const Point& p, const Vec3<double>& n,
-                                             double reach) {
+                                             double reach, std::span<const std::int64_t> near) {
   constexpr double facing = 0.7, enough = 0.98;
   const auto faces = [&](const SurfacePoint& q) { return dot(lumen.normal(q.triangle), n) < -facing; };
   double radius = 0.5 * reach;
-  for (std::int64_t touched = -1;;) {
-    const auto q = lumen.nearest_if(p - radius * n, enough * radius, faces);
-    if (!q) return {touched < 0 ? infinity : 2 * radius, touched};
+  std::int64_t touched = -1;
+  const auto shrink = [&](const SurfacePoint& q) {
     touched = q.triangle;
     const auto d = q.place - p;
     radius = dot(d, d) / (-2 * dot(d, n));  // through p and q; smaller, since q was inside
+  };
+  for (const auto t : near)
+    if (t >= 0)
+      if (const auto q = nearest_on(lumen, p - radius * n, t); q.distance < enough * radius && faces(q)) shrink(q);
+  for (;;) {
+    const auto q = lumen.nearest_if(p - radius * n, enough * radius, faces);
+    if (!q) return {touched < 0 ? infinity : 2 * radius, touched};
+    shrink(q);
   }
 }
 
@@ -84,9 +94,14 @@ LumenDiameter lumen_diameter(const TriangleTree& lumen, double reach) {
   const auto& points = lumen.surface().points;
   const auto normals = point_normals(lumen.surface());
   LumenDiameter diameter{std::vector<double>(points.size(), infinity), std::vector<std::int64_t>(points.size(), -1)};
-  for (std::size_t p = 0; p < points.size(); ++p)
-    if (norm(normals[p]) > 0)
-      std::tie(diameter.value[p], diameter.facing[p]) = largest_ball(lumen, points[p], normals[p], reach);
+  const auto beside = neighbours(lumen.surface());
+  std::vector<std::int64_t> near;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (!(norm(normals[p]) > 0)) continue;
+    near.clear();
+    for (const auto q : beside[p]) near.push_back(diameter.facing[q]);
+    std::tie(diameter.value[p], diameter.facing[p]) = largest_ball(lumen, points[p], normals[p], reach, near);
+  }
   return diameter;
 }
 

@@ -21,6 +21,8 @@ namespace {
 using geometry::TriangleSurface;
 
 constexpr int sweeps = 80;
+constexpr double roughest = 0.08;      // voxels of noise that a surface may have
+constexpr double farthest_way = 3;     // of the noise; what is farther off is shape
 constexpr double continued = 6;        // voxels beyond an end
 constexpr double thinnest_flap = 1.3;  // voxels; thinner sheets fall between the samples of the field
 
@@ -87,6 +89,21 @@ TriangleSurface largest_parts(const TriangleSurface& surface, int count) {
   return result;
 }
 
+/// Takes what is left of the voxels, and what is noise of the labels, without making triangles cross.
+void take_noise(TriangleSurface& surface, double voxel, const Log& log) {
+  const auto contour = surface.points;
+  smooth_surface(surface, sweeps);
+  const double rough = roughness(surface);
+  log(fmt::format("roughness of the surface: {:.2f} voxels", rough / voxel));
+  if (rough > roughest * voxel) {
+    smooth_rough_surface(surface, farthest_way * rough);
+    log(fmt::format("the labels are rough: noise of {:.2f} mm is taken from the surface, which then has {:.2f} mm",
+                    1e3 * rough, 1e3 * roughness(surface)));
+  }
+  if (const auto moved = untangle(surface, contour); moved > 0)
+    log(fmt::format("{} points are kept where the labels have them, since triangles would cross", moved));
+}
+
 TriangleSurface cut_open(TriangleSurface surface, const std::vector<VesselEnd>& ends, double voxel, int parts) {
   for (auto end : ends) {
     end.radius += 4 * voxel;
@@ -118,22 +135,73 @@ void check_genus(const LabelSurface& result, std::int64_t expected, const Log& l
   for (const auto& tear : result.tears) places += (places.empty() ? "" : ", ") + in_mm(tear.centre);
   throw SolverError(
       fmt::format("the lumen surface has genus {}, expected is {} ({} tears{}). The flap has holes that the labels do "
-                  "not have, or a "
-                  "tear was closed: correct the labels there, give another `smoothing` or `smallest_tear`, or say "
-                  "`genus: {}` if the "
-                  "surface is right",
+                  "not have, or a tear was closed: correct the labels there, give another `smoothing` or "
+                  "`smallest_tear`, or say `genus: {}` if the surface is right",
                   genus, expected, result.tears.size(), places.empty() ? "" : " at " + places, genus));
 }
 
 /// What is left of a vessel behind the tissue with which its continuation ends.
 void drop_beyond_ends(LumenMask& mask) {
   for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
-    VoxelSet set(mask.kinds.size());
-    for (std::size_t i = 0; i < set.size(); ++i) set[i] = mask.kinds[i] == kind;
+    auto set = voxels_of(mask.kinds, kind);
     keep_largest_part(mask.frame, set);
     for (std::size_t i = 0; i < set.size(); ++i)
       if (mask.kinds[i] == kind && !set[i]) mask.kinds[i] = Kind::tissue;
   }
+}
+
+/// Whether the lumen nearest to each point of the surface is of a kind.
+std::vector<std::uint8_t> points_at(Kind kind, const LumenMask& mask, const TriangleSurface& surface) {
+  const double reach = 3 * mask.frame.largest_spacing();
+  std::vector<std::uint8_t> result;
+  for (const auto& p : surface.points) {
+    double nearest = 1;
+    bool found = false;
+    for_each_voxel_near(mask.frame, p, reach, [&](std::int64_t i) {
+      const double distance = norm(mask.frame.place(mask.frame.voxel(i)) - p);
+      if (!mask.is_lumen(i) || distance >= nearest) return;
+      nearest = distance;
+      found = mask.kinds[i] == kind;
+    });
+    result.push_back(found);
+  }
+  return result;
+}
+
+/// Standard deviation of the filter [m].
+double filter_width(const ImageFrame& frame, const SurfaceSettings& settings) {
+  const double side = smallest_spacing(frame);
+  if (!settings.smoothing_length) return settings.smoothing * side;
+  const double length = *settings.smoothing_length;
+  if (length < 0.5 * side || length > 2 * side)
+    throw InputError("smoothing_length",
+                     fmt::format("is {:.2f} mm, with voxels of {:.2f} mm", 1e3 * length, 1e3 * side),
+                     fmt::format("give {:.2f} to {:.2f} mm", 0.5e3 * side, 2e3 * side));
+  return length;
+}
+
+/// The surface of lumen and thrombus together, cut where the lumen is.
+TriangleSurface around_thrombus(const LabelImage& image, const SurfaceSettings& settings,
+                                const std::vector<VesselEnd>& ends, const Log& log) {
+  auto joined = image;
+  const int blood = settings.labels.true_lumen;
+  for (auto& label : joined.labels) {
+    const bool within = label == blood || label == settings.labels.thrombus || label == settings.labels.false_lumen;
+    label = static_cast<std::int16_t>(within ? blood : 0);
+  }
+  auto repairs = settings.repairs;
+  repairs.asked[static_cast<std::size_t>(Repair::pieces)] = true;  // clots outside of the vessel
+  const auto say = [&](const std::string& line) {
+    if (!line.starts_with("label")) log("lumen and thrombus: " + line);
+  };
+  auto mask = with_even_voxels(lumen_mask(joined, {blood, std::nullopt}, margin_for(image.frame), say, repairs));
+  const double voxel = mask.frame.largest_spacing();
+  for (const auto& end : ends) continue_beyond(end, continued * voxel, mask);
+  drop_beyond_ends(mask);
+  auto surface = largest_parts(
+      boundary(smooth_field(mask, filter_width(image.frame, settings) / smallest_spacing(mask.frame))), 1);
+  take_noise(surface, voxel, say);
+  return cut_open(std::move(surface), ends, voxel, 1);
 }
 
 /// The smooth field, with the topology of the labels.
@@ -187,9 +255,16 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
           "Labels of what is no flowing blood: thrombus, wall, other organs. It becomes wall where the wall grows "
           "there, and lies outside the mesh elsewhere")
       .by_default("[]")
+      .integer(
+          "thrombus", [](S& s) -> std::optional<int>& { return s.labels.thrombus; }, range(-32768, 32767),
+          "Label of clotted blood in the vessel: it becomes wall, and the wall that is grown goes around it")
+      .optional()
       .number("smoothing", &S::smoothing, range(0.5, 2),
               "Standard deviation of the filter on the labels, in voxels: more closes gaps that are thinner")
       .by_default()
+      .quantity("smoothing_length", &S::smoothing_length, dimension::length, range(0.1e-3, 4e-3),
+                "The same as a length, in place of `smoothing`; 0.5 to 2 times the shortest side of a voxel")
+      .optional()
       .map("openings", &S::openings, ImageOpening::schema(),
            "Vessel ends by name. When left out, all ends are opened and called inlet (the widest), outlet_1, ...")
       .by_default()
@@ -227,13 +302,13 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   const bool dissected = settings.labels.false_lumen.has_value();
   LabelSurface result;
   result.parts = settings.flap.insert && settings.flap.tears.empty() ? 2 : 1;
-  auto mask = lumen_mask(image, settings.labels, margin_for(image.frame), log, settings.repairs, result.parts == 2);
-  const double smallest = smallest_spacing(mask.frame);
-  mask = with_even_voxels(std::move(mask));
+  const double filter = filter_width(image.frame, settings);
+  auto mask = with_even_voxels(
+      lumen_mask(image, settings.labels, margin_for(image.frame), log, settings.repairs, result.parts == 2));
   const double voxel = mask.frame.largest_spacing();
-  if (smallest_spacing(image.frame) < 0.99 * image.frame.largest_spacing() || voxel < 0.99 * smallest)
+  if (voxel < 0.99 * image.frame.largest_spacing())
     log(fmt::format("voxels of {:.2f} mm by shape-based interpolation", 1e3 * voxel));
-  const double sigma = settings.smoothing * smallest / smallest_spacing(mask.frame);
+  const double sigma = filter / smallest_spacing(mask.frame);
   if (dissected) result.tears = find_tears(mask, settings.flap, settings.tears, log);
   const auto rings = open_bridges(mask, dissected, settings.tears.at_least(), settings.repairs[Repair::bridges], log);
   result.ends = choose_ends(mask, smooth_field(mask, sigma), settings, log);
@@ -242,11 +317,13 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   for (const auto& end : result.ends) continue_beyond(end, continued * voxel, mask);
   drop_beyond_ends(mask);
   auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, log)), result.parts);
-  smooth_surface(surface, sweeps);
+  take_noise(surface, voxel, log);
   result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
+  result.of_false_lumen = points_at(Kind::false_lumen, mask, result.lumen);
   log_shape(result, log);
   const auto tears = std::ssize(result.tears);
   check_genus(result, settings.genus ? *settings.genus : dissected ? std::max<std::int64_t>(0, tears - 1) : rings, log);
+  if (settings.labels.thrombus) result.with_thrombus = around_thrombus(image, settings, result.ends, log);
   return result;
 }
 

@@ -24,6 +24,7 @@ struct ImageOpening {
 struct SurfaceSettings {
   LumenLabels labels;
   double smoothing = 0.85;                                       ///< standard deviation of the filter [voxels]
+  std::optional<double> smoothing_length{};                      ///< the same [m], in place of it
   std::vector<std::pair<std::string, ImageOpening>> openings{};  ///< none: all ends that are found
   std::string inlet{};  ///< name of an opening; empty: the first one, or the widest end
   FlapSettings flap{};
@@ -38,7 +39,10 @@ struct LabelSurface {
   geometry::TriangleSurface lumen;  ///< open at the vessel ends, with plane rims and outward normals
   std::vector<VesselEnd> ends;      ///< in the order of the openings that were given
   std::vector<Contact> tears;
-  int parts = 1;  ///< 2: true and false lumen are apart
+  int parts = 1;                               ///< 2: true and false lumen are apart
+  std::vector<std::uint8_t> of_false_lumen{};  ///< is each point of the lumen at the false one?
+  std::optional<geometry::TriangleSurface>
+      with_thrombus{};  ///< around lumen and thrombus together, where there is some
 };
 
 /// The lumen's surface between the voxels, smooth, cut open at the vessel ends. The log gets what was cleaned, where

@@ -27,6 +27,7 @@ void check_labels(const LabelImage& image, const LumenLabels& labels, const Log&
     const bool is_tissue = std::find(labels.tissue.begin(), labels.tissue.end(), label) != labels.tissue.end();
     const char* role = label == labels.true_lumen    ? "true lumen"
                        : label == labels.false_lumen ? "false lumen"
+                       : label == labels.thrombus    ? "thrombus: wall, which goes around it"
                        : is_tissue                   ? "tissue: wall where the wall grows there, else outside"
                        : label == 0                  ? "outside"
                                                      : nullptr;
@@ -36,9 +37,10 @@ void check_labels(const LabelImage& image, const LumenLabels& labels, const Log&
       problems.push_back(
           {fmt::format("label {}", label),
            fmt::format("{:.2f} ml of the image have it, and nothing says what they are", volume),
-           fmt::format("give `tissue: [{}]` for what is no flowing blood (thrombus, wall, other organs), "
-                       "or join it with a lumen",
-                       label)});
+           fmt::format(
+               "give `thrombus: {}` for clotted blood, which the wall goes around, `tissue: [{}]` for what else "
+               "is no flowing blood (wall, other organs), or join it with a lumen",
+               label, label)});
   }
   const auto check = [&](const char* key, int label) {
     if (!counts.contains(label))
@@ -47,6 +49,10 @@ void check_labels(const LabelImage& image, const LumenLabels& labels, const Log&
   };
   check("true_lumen", labels.true_lumen);
   if (labels.false_lumen) check("false_lumen", *labels.false_lumen);
+  if (labels.thrombus) check("thrombus", *labels.thrombus);
+  if (labels.thrombus && (labels.thrombus == labels.true_lumen || labels.thrombus == labels.false_lumen))
+    problems.push_back({"thrombus", fmt::format("label {} is a lumen", *labels.thrombus),
+                        "give the label of the clotted blood alone"});
   if (labels.false_lumen == labels.true_lumen)
     problems.push_back({"false_lumen", "has the label of the true lumen", "give each lumen a label of its own"});
   for (const double label : labels.tissue)
@@ -185,8 +191,7 @@ void clean(LumenMask& mask, const Repairs& repairs, bool apart, const Log& log) 
 /// branches of the false lumen that bear the label of all branches.
 void rename_parts(LumenMask& mask, const Log& log) {
   for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
-    VoxelSet set(mask.kinds.size());
-    for (std::size_t i = 0; i < set.size(); ++i) set[i] = mask.kinds[i] == kind;
+    auto set = voxels_of(mask.kinds, kind);
     const auto all = set;
     const auto changed = keep_largest_part(mask.frame, set);
     if (changed == 0) continue;
@@ -211,6 +216,12 @@ void check_connected(const LumenMask& mask, Kind kind, const char* name, std::in
 }
 
 }  // namespace
+
+VoxelSet voxels_of(const std::vector<Kind>& kinds, Kind kind) {
+  VoxelSet set(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) set[i] = kinds[i] == kind;
+  return set;
+}
 
 std::string in_mm(const Point& p) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]);

@@ -33,6 +33,7 @@ struct LumenLabels {
   int true_lumen = 1;
   std::optional<int> false_lumen;  ///< none: there is no dissection
   std::vector<double> tissue{};    ///< further labels that are no blood
+  std::optional<int> thrombus{};   ///< clotted blood within the vessel: no lumen, but the wall goes around it
 };
 
 /// Which faults of a segmentation are mended; the others are errors.
@@ -41,6 +42,9 @@ struct Repairs {
   std::array<bool, 3> asked{};
   bool operator[](Repair repair) const { return asked[static_cast<std::size_t>(repair)]; }
 };
+
+/// Which voxels are of a kind, one entry each.
+std::vector<std::uint8_t> voxels_of(const std::vector<Kind>& kinds, Kind kind);
 
 using Log = std::function<void(const std::string&)>;
 

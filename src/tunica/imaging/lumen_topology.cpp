@@ -44,12 +44,6 @@ bool is_rough(const ImageFrame& frame, const Handle& handle) {
   return handle.way <= short_way || area < 4 * voxel * voxel || std::pow(2 * reach + voxel, 2) > film * area;
 }
 
-VoxelSet voxels_of(const LumenMask& mask, Kind kind) {
-  VoxelSet set(mask.kinds.size());
-  for (std::size_t i = 0; i < set.size(); ++i) set[i] = mask.kinds[i] == kind;
-  return set;
-}
-
 class Settling {
  public:
   Settling(const FlapSides* sides, SmoothField& field) : sides_(sides), field_(field), frame_(field.frame) {
@@ -207,7 +201,7 @@ std::int64_t open_bridges(LumenMask& mask, bool dissected, double smallest_tear,
   std::int64_t tears = 0;
   std::vector<Problem> problems;
   for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
-    auto set = voxels_of(mask, kind);
+    auto set = voxels_of(mask.kinds, kind);
     if (std::count(set.begin(), set.end(), 1) == 0) continue;
     const auto depth = depth_in(mask.frame, set);
     for (const auto& handle : remove_handles(mask.frame, depth, set)) {

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double largest_voxel = 1.2e-3;  // m
 
-VoxelSet voxels_of(const std::vector<Kind>& kinds, Kind kind) {
-  VoxelSet set(kinds.size());
-  for (std::size_t i = 0; i < kinds.size(); ++i) set[i] = kinds[i] == kind;
-  return set;
-}
-
 VoxelSet lumen_of(const std::vector<Kind>& kinds) {
   VoxelSet set(kinds.size());
   for (std::size_t i = 0; i < kinds.size(); ++i) set[i] = kinds[i] != Kind::tissue;

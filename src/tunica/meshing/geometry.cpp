@@ -36,7 +36,7 @@ Schema<VesselRoles> roles_schema() {
       .by_default();
 }
 
-GeometrySurfaces from(const geometry::ParametricDissection& shape, const ComplexOptions& options) {
+GeometrySurfaces from(const geometry::ParametricDissection& shape, const ComplexOptions& options, bool) {
   options.log("surfaces of the idealised dissection");
   // The surfaces need to be finer than the mesh, but not much; the thinnest sheets and roundest rims have to be seen.
   const double thinnest = std::min(shape.flap.thickness, shape.flap.false_lumen_wall_thickness);
@@ -49,7 +49,7 @@ GeometrySurfaces from(const geometry::ParametricDissection& shape, const Complex
   return {dissection_surfaces(geometry::DissectionModel(shape), spacing), 1, roles};
 }
 
-GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) {
+GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options, bool grow) {
   const double unit = files.metres_per_unit;
   GeometrySurfaces result{{{}, {}, {}}, 1, files.roles, files.genus};
   if (!files.openings.empty()) {
@@ -65,6 +65,7 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) 
     result.surfaces.outer = geometry::read_surface(files.outer_wall, unit);
     return result;
   }
+  if (!grow) return result;
   auto growing = options;
   growing.lumen_parts = result.lumen_parts;
   result.surfaces = with_grown_wall(result.surfaces.lumen, result.surfaces.names, files.wall.value_or(GrowthSettings{}),
@@ -72,9 +73,9 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options) 
   return result;
 }
 
-GeometrySurfaces from(const ImageGeometry& image, const ComplexOptions& options) {
-  auto made = surfaces_from_image(image, options);
-  return {std::move(made.surfaces), made.lumen_parts, roles_of(image)};
+GeometrySurfaces from(const ImageGeometry& image, const ComplexOptions& options, bool grow) {
+  auto made = surfaces_from_image(image, options, grow);
+  return {std::move(made.surfaces), made.lumen_parts, roles_of(image), {}, std::move(made.labelled)};
 }
 
 }  // namespace
@@ -111,8 +112,8 @@ Schema<Geometry> geometry_schema() {
       .alternative(ImageGeometry::schema());
 }
 
-GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options) {
-  return std::visit([&](const auto& g) { return from(g, options); }, geometry);
+GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options, bool grow) {
+  return std::visit([&](const auto& g) { return from(g, options, grow); }, geometry);
 }
 
 }  // namespace tunica::meshing

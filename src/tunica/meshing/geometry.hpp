@@ -35,9 +35,11 @@ struct GeometrySurfaces {
   int lumen_parts = 1;
   VesselRoles roles;
   std::optional<int> genus{};  ///< that the lumen must have
+  LabelledLumen labelled{};    ///< of an image: what its labels say
 };
 
-/// Reads or makes the surfaces; grows the wall where none is given. Errors as of the functions that it calls.
-GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options);
+/// Reads or makes the surfaces; grows the wall where none is given, unless `grow` is false. Errors as of the functions
+/// that it calls.
+GeometrySurfaces surfaces_of(const Geometry& geometry, const ComplexOptions& options, bool grow = true);
 
 }  // namespace tunica::meshing

@@ -14,8 +14,8 @@ bool by_region(const GrowthSettings& growth) {
   return growth.true_lumen_wall || growth.false_lumen_wall || growth.branches;
 }
 
-/// The region of the wall at each point of the lumen surface, from a coarse mesh.
-std::vector<WallRegion> regions_at(const geometry::TriangleSurface& lumen, const PatientSurfaces& surfaces,
+/// The region of the wall at each point, from a coarse mesh.
+std::vector<WallRegion> regions_at(const std::vector<geometry::Point>& places, const PatientSurfaces& surfaces,
                                    const VesselRoles& roles, const ComplexOptions& options) {
   auto coarse = options;
   coarse.sizes.largest = 5e-3;
@@ -39,7 +39,7 @@ std::vector<WallRegion> regions_at(const geometry::TriangleSurface& lumen, const
     }
   const geometry::TriangleTree tree(std::move(interface));
   std::vector<WallRegion> result;
-  for (const auto& p : lumen.points) result.push_back(of_triangle[tree.nearest(p).triangle]);
+  for (const auto& p : places) result.push_back(of_triangle[tree.nearest(p).triangle]);
   return result;
 }
 
@@ -60,16 +60,19 @@ void log_thickness(const std::vector<double>& thickness, const Log& log) {
 }  // namespace
 
 PatientSurfaces with_grown_wall(const geometry::TriangleSurface& lumen, const std::vector<geometry::NamedPlace>& names,
-                                const GrowthSettings& growth, const VesselRoles& roles, const ComplexOptions& options) {
+                                const GrowthSettings& growth, const VesselRoles& roles, const ComplexOptions& options,
+                                const geometry::TriangleSurface* body) {
   PatientSurfaces surfaces{mended(lumen, "lumen surface", options.lumen_parts, options), {}, names};
-  const auto openings = geometry::find_openings(surfaces.lumen, nullptr, names);
-  geometry::flatten_rims(surfaces.lumen, openings, &geometry::Opening::lumen);
-  auto thickness = thickness_by_radius(surfaces.lumen, openings, growth);
+  auto inner = body ? mended(*body, "surface of lumen and thrombus", 1, options) : surfaces.lumen;
+  const auto openings = geometry::find_openings(inner, nullptr, names);
+  geometry::flatten_rims(inner, openings, &geometry::Opening::lumen);
+  if (!body) surfaces.lumen = inner;
+  auto thickness = thickness_by_radius(inner, openings, growth);
   log_thickness(thickness, options.log);
-  surfaces.outer = grow_wall(surfaces.lumen, thickness, openings, growth);
+  surfaces.outer = grow_wall(inner, thickness, openings, growth);
   if (!by_region(growth)) return surfaces;
 
-  const auto region = regions_at(surfaces.lumen, surfaces, roles, options);
+  const auto region = regions_at(inner.points, surfaces, roles, options);
   for (std::size_t p = 0; p < thickness.size(); ++p) {
     const auto& given = region[p] == WallRegion::true_lumen_wall    ? growth.true_lumen_wall
                         : region[p] == WallRegion::false_lumen_wall ? growth.false_lumen_wall
@@ -78,9 +81,9 @@ PatientSurfaces with_grown_wall(const geometry::TriangleSurface& lumen, const st
     if (given) thickness[p] = *given;
   }
   constexpr double transition = 3e-3;  // m
-  geometry::average_over_neighbours(surfaces.lumen, sweeps_over(surfaces.lumen, transition), thickness);
+  geometry::average_over_neighbours(inner, sweeps_over(inner, transition), thickness);
   log_thickness(thickness, options.log);
-  surfaces.outer = grow_wall(surfaces.lumen, thickness, openings, growth);
+  surfaces.outer = grow_wall(inner, thickness, openings, growth);
   return surfaces;
 }
 

@@ -23,13 +23,22 @@ struct ImageGeometry {
 /// What its openings are.
 VesselRoles roles_of(const ImageGeometry& geometry);
 
+/// What the labels say of a lumen before there is a mesh.
+struct LabelledLumen {
+  geometry::TriangleSurface lumen{};           ///< as the labels give it
+  std::vector<std::uint8_t> of_false_lumen{};  ///< is each point of it at the false lumen?
+  std::vector<imaging::Contact> tears{};
+};
+
 struct ImageSurfaces {
   PatientSurfaces surfaces;
   int lumen_parts = 1;  ///< 2: true and false lumen are apart
+  LabelledLumen labelled;
 };
 
 /// Reads the image and makes lumen and outer surface of it. Errors as of `read_label_image`, `surface_of` and
 /// `meshing::with_grown_wall`; InputError for an opening nearly as wide as the inlet that is no end of the aorta.
-ImageSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options);
+/// `grow`: without it the lumen has no wall around it.
+ImageSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options, bool grow = true);
 
 }  // namespace tunica::meshing

@@ -50,6 +50,7 @@ std::vector<Tear> find_tears(const geometry::Tetrahedra& mesh, const std::vector
     std::vector<geometry::Index> stack = {start};
     open[start] = false;
     Tear tear{{{0, 0, 0}}, {{0, 0, 0}}, 0, {}};
+    double weight = 0;  // of the centre
     while (!stack.empty()) {
       const geometry::Index e = stack.back();
       stack.pop_back();
@@ -58,16 +59,18 @@ std::vector<Tear> find_tears(const geometry::Tetrahedra& mesh, const std::vector
       const double area = norm(piece.area);
       tear.centre = tear.centre + area * piece.middle;
       tear.normal = tear.normal + piece.area;
-      tear.area += area;
+      weight += area;
       for (const auto other : adjacent[e])
         if (other >= 0 && open[other]) {
           open[other] = false;
           stack.push_back(other);
         }
     }
-    if (tear.area == 0) continue;
-    tear.centre = (1 / tear.area) * tear.centre;
-    if (const double size = norm(tear.normal); size > 0) tear.normal = (1 / size) * tear.normal;
+    if (weight == 0) continue;
+    tear.centre = (1 / weight) * tear.centre;
+    // The area vector depends on the rim alone, whichever way the surface bulges or zigzags within it.
+    tear.area = norm(tear.normal);
+    if (tear.area > 0) tear.normal = (1 / tear.area) * tear.normal;
     tears.push_back(tear);
   }
   std::sort(tears.begin(), tears.end(), [](const Tear& a, const Tear& b) { return a.area > b.area; });

@@ -10,7 +10,7 @@ namespace tunica::meshing {
 struct Tear {
   geometry::Point centre;                   ///< m
   Vec3<double> normal;                      ///< unit, towards the true lumen
-  double area = 0;                          ///< m^2
+  double area = 0;                          ///< of its rim, seen along the normal [m^2]
   std::vector<geometry::Index> elements{};  ///< that it cuts
 };
 

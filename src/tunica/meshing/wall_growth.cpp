@@ -6,6 +6,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/geometry/contour.hpp"
+#include "tunica/geometry/nearby_search.hpp"
 #include "tunica/geometry/plane_cut.hpp"
 #include "tunica/geometry/remesh.hpp"
 #include "tunica/geometry/triangle_tree.hpp"
@@ -29,12 +30,14 @@ double inscribed_radius(const geometry::TriangleTree& tree, const geometry::Poin
     if (depth < 0.3 * norm(to_q)) break;
     radius = dot(to_q, to_q) / (2 * depth);
   }
+  if (radius >= largest) return largest;
   geometry::Point centre = x - radius * outward;
+  std::int64_t near = -1;
   for (int i = 0; i < 8; ++i) {
-    const auto q = tree.nearest(centre);
+    const auto q = geometry::nearest_from(tree, centre, near);
     const auto away = centre - q.place;
     const geometry::Point next = centre + 0.05 * away;
-    const double there = tree.nearest(next).distance;
+    const double there = geometry::nearest_from(tree, next, near).distance;
     radius = std::max(q.distance, there);
     if (there <= q.distance) break;
     centre = next;
@@ -88,9 +91,10 @@ class WallFunction {
   const geometry::TriangleTree& tree() const { return tree_; }
   double reach() const { return reach_; }
 
-  /// Exact within `band` of the value zero outside the body, elsewhere of the right sign.
-  double operator()(const geometry::Point& x, double band) const {
-    const auto nearest = tree_.nearest(x);
+  /// Exact within `band` of the value zero outside the body, elsewhere of the right sign. `near`: the triangle found at
+  /// a place beside x, or -1; becomes the one found here.
+  double operator()(const geometry::Point& x, double band, std::int64_t& near) const {
+    const auto nearest = geometry::nearest_from(tree_, x, near);
     if (tree_.is_behind(x, nearest)) return -nearest.distance - least_;
     if (nearest.distance - reach_ > band) return nearest.distance - reach_;
     if (nearest.distance - least_ < -band) return nearest.distance - least_;
@@ -128,10 +132,11 @@ geometry::Grid sample(const WallFunction& wall, double level, double spacing) {
   const double exact = 2 * spacing;
   auto grid = grid_around(wall.tree().surface(), wall.reach() + level + 2 * exact, spacing);
   grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
+  std::int64_t near = -1;
   for (std::int64_t k = 0; k < grid.size[2]; ++k)
     for (std::int64_t j = 0; j < grid.size[1]; ++j)
       for (std::int64_t i = 0; i < grid.size[0];) {
-        const double value = wall(grid.place(i, j, k), level + exact) - level;
+        const double value = wall(grid.place(i, j, k), level + exact, near) - level;
         const auto same = std::max<std::int64_t>(0, static_cast<std::int64_t>((std::abs(value) - exact) / spacing));
         const auto end = std::min(grid.size[0], i + 1 + same);
         for (; i < end; ++i) grid.values[grid.index(i, j, k)] = static_cast<float>(value);
@@ -143,14 +148,17 @@ geometry::Grid sample(const WallFunction& wall, double level, double spacing) {
 /// wanted one: `outside` is the surface, and what lies deeper than `depth` below it is inside.
 void erode(const geometry::TriangleTree& outside, double depth, geometry::Grid& grid) {
   const double band = 2 * grid.spacing;
+  std::int64_t near = -1;
   for_each_place(grid, [&](std::int64_t at, const geometry::Point& x) {
     auto& value = grid.values[at];
-    if (value >= 0)
+    if (value >= 0) {
       value = static_cast<float>(depth);
-    else if (value < -depth - band)
+    } else if (value < -depth - band) {
       value = static_cast<float>(-band);
-    else
-      value = static_cast<float>(depth - std::min(depth + band, outside.nearest(x, depth + band).distance));
+    } else {
+      const double distance = geometry::nearest_from(outside, x, near, depth + band).distance;
+      value = static_cast<float>(depth - std::min(depth + band, distance));
+    }
   });
 }
 

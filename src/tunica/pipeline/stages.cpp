@@ -208,7 +208,7 @@ int run_mesh(const StageCall& call) {
     const auto say = say_to(call);
     const auto parsed = case_file::read_mesh_case(call.file);
     for (const auto& warning : parsed.warnings) say("warning: " + format(warning));
-    say(fmt::format("\n{}", stages::mesh_to_files(parsed.value, true, say)));
+    say(fmt::format("\n{}", stages::mesh_to_files(parsed.value, true, say).text));
   });
   return 0;
 }

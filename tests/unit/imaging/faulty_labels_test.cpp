@@ -1,6 +1,7 @@
 // What becomes of segmentations with the faults that observers, networks and scanners make.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -121,6 +122,59 @@ TEST(FaultyLabels, ALabelThatNothingNamesIsAnError) {
   const auto made = make(image, asked);
   EXPECT_EQ(made.surface.tears.size(), 1U) << made.log << made.error;
   EXPECT_EQ(made.genus, 0) << made.log << made.error;
+}
+
+/// Of a surface closed by plane fans.
+double volume(geometry::TriangleSurface surface) {
+  for (const auto& loop : geometry::boundary_loops(surface)) {
+    surface.points.push_back(surface.points[loop.front()]);
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      surface.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], std::ssize(surface.points) - 1});
+  }
+  return geometry::enclosed_volume(surface);
+}
+
+TEST(FaultyLabels, ThrombusIsNoLumenButLiesWithinTheWall) {
+  const auto clotted = [](const Point& p) { return dissected(p) == 2 && p[0] < -3.5 * mm ? 3 : dissected(p); };
+  const auto image = image_of(clotted, size, straight);
+  auto asked = settings();
+  EXPECT_TRUE(contains(make(image, asked).error, "give `thrombus: 3` for clotted blood"));
+  asked.labels.thrombus = 3;
+  const auto made = make(image, asked);
+  ASSERT_EQ(made.genus, 1) << made.log << made.error;
+  EXPECT_TRUE(contains(made.log, "thrombus: wall, which goes around it")) << made.log;
+  ASSERT_TRUE(made.surface.with_thrombus);
+  EXPECT_EQ(geometry::boundary_loops(*made.surface.with_thrombus).size(), 2U);
+  // The clot, and the flap where both surfaces are one.
+  const double clot =
+      static_cast<double>(std::count(image.labels.begin(), image.labels.end(), 3)) * image.frame.voxel_volume();
+  EXPECT_GT(volume(*made.surface.with_thrombus) - volume(made.surface.lumen), 0.9 * clot);
+  asked.labels.thrombus = 2;
+  EXPECT_TRUE(contains(make(image, asked).error, "label 2 is a lumen"));
+}
+
+TEST(FaultyLabels, TheFilterMayBeGivenAsALength) {
+  const auto image = image_of(dissected, size, straight);
+  auto asked = settings();
+  const auto by_voxels = make(image, asked);
+  asked.smoothing_length = asked.smoothing * 0.7 * mm;
+  const auto by_length = make(image, asked);
+  ASSERT_EQ(by_length.surface.lumen.points.size(), by_voxels.surface.lumen.points.size()) << by_length.error;
+  for (std::size_t p = 0; p < by_length.surface.lumen.points.size(); ++p)
+    EXPECT_LT(norm(by_length.surface.lumen.points[p] - by_voxels.surface.lumen.points[p]), 1e-9);
+  asked.smoothing_length = 3 * mm;
+  EXPECT_TRUE(contains(make(image, asked).error, "give 0.35 to 1.40 mm"));
+}
+
+TEST(FaultyLabels, EveryPointOfTheSurfaceKnowsItsLumen) {
+  const auto made = make(image_of(dissected, size, straight), settings());
+  ASSERT_EQ(made.surface.of_false_lumen.size(), made.surface.lumen.points.size());
+  for (std::size_t p = 0; p < made.surface.lumen.points.size(); ++p) {
+    const auto& x = made.surface.lumen.points[p];
+    if (std::abs(x[0]) > 2 * mm) {
+      EXPECT_EQ(made.surface.of_false_lumen[p] != 0, x[0] < 0 && std::abs(x[2]) < 15 * mm);
+    }
+  }
 }
 
 TEST(FaultyLabels, AThinFlapStaysClosed) {

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "tunica/geometry/self_intersections.hpp"
+
 namespace tunica::imaging {
 namespace {
 
@@ -116,6 +118,60 @@ TEST(SurfaceSmoothing, TakesNoiseAndLeavesVolume) {
   smooth_surface(surface, 80);
   EXPECT_LT(roughness(), 0.2 * before);
   EXPECT_NEAR(geometry::enclosed_volume(surface) / volume, 1, 0.01);
+}
+
+/// Noise that is smooth over some edges, as that of labels: the first filter leaves it.
+TriangleSurface rough_sphere(double deviation, double& volume) {
+  auto surface = sphere(6);
+  volume = geometry::enclosed_volume(surface);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<double> height(surface.points.size());
+  for (auto& h : height) h = normal(random);
+  geometry::average_over_neighbours(surface, 6, height);
+  double square = 0;
+  for (const double h : height) square += h * h / static_cast<double>(height.size());
+  for (std::size_t p = 0; p < height.size(); ++p)
+    surface.points[p] = (1 + deviation * height[p] / std::sqrt(square)) * surface.points[p];
+  return surface;
+}
+
+TEST(SurfaceSmoothing, TellsTheNoiseOfLabelsFromTheShapeOfVessels) {
+  double volume = 0;
+  EXPECT_LT(roughness(sphere(6)), 1e-4);
+  auto surface = rough_sphere(0.01, volume);
+  const double before = roughness(surface);
+  EXPECT_GT(before, 0.004);
+  EXPECT_LT(before, 0.011);
+  smooth_rough_surface(surface, 3 * before);
+  EXPECT_LT(roughness(surface), 0.35 * before);
+  EXPECT_NEAR(geometry::enclosed_volume(surface) / volume, 1, 0.003);
+}
+
+TEST(SurfaceSmoothing, NoPointMovesFartherThanItMay) {
+  double volume = 0;
+  const auto rough = rough_sphere(0.01, volume);
+  auto surface = rough;
+  smooth_rough_surface(surface, 0.002);
+  double farthest = 0;
+  for (std::size_t p = 0; p < rough.points.size(); ++p)
+    farthest = std::max(farthest, norm(surface.points[p] - rough.points[p]));
+  EXPECT_NEAR(farthest, 0.002, 1e-9);
+}
+
+TEST(SurfaceSmoothing, PointsGoBackWhereTrianglesWouldCross) {
+  // Two spheres apart, and the second one pushed into the first one on the near side.
+  auto before = sphere(3), other = sphere(3);
+  for (auto& p : other.points) p = p + Vec3<double>{{2.05, 0, 0}};
+  geometry::append(before, other);
+  auto surface = before;
+  for (std::size_t p = surface.points.size() / 2; p < surface.points.size(); ++p)
+    if (surface.points[p][0] < 1.5) surface.points[p][0] -= 0.08;
+  ASSERT_FALSE(geometry::crossing_triangles(surface).empty());
+  const auto moved = untangle(surface, before.points);
+  EXPECT_TRUE(geometry::crossing_triangles(surface).empty());
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, std::ssize(surface.points) / 4);
 }
 
 TEST(SurfaceSmoothing, MovesWithTheSurface) {

@@ -50,5 +50,19 @@ TEST(FindTears, TheHoleOfTheBlockVessel) {
   EXPECT_TRUE(find_tears(test::block_vessel({.hole = false}), side).empty());
 }
 
+TEST(FindTears, TheAreaIsThatOfTheRimHoweverTheSurfaceWithinItBulges) {
+  const test::BlockVessel vessel;
+  const auto mesh = test::block_vessel(vessel);
+  std::vector<double> flat, bulging;
+  for (const auto& p : mesh.points) {
+    const bool level = p[2] > (vessel.from + 1) * 1e-3 - 1e-9 && p[2] < (vessel.to - 1) * 1e-3 + 1e-9;
+    flat.push_back(level ? 4.5e-3 - p[0] : 1e-3);
+    // The middle of the hole is moved, its rim is not.
+    const bool middle = std::hypot(p[1] - 5e-3, p[2] - 9e-3) < 0.5e-3;
+    bulging.push_back(level && middle ? 4.9e-3 - p[0] : flat.back());
+  }
+  EXPECT_NEAR(find_tears(mesh, bulging)[0].area, find_tears(mesh, flat)[0].area, 1e-12);
+}
+
 }  // namespace
 }  // namespace tunica::meshing

@@ -54,6 +54,13 @@ void compare_tears(const geometry::TriangleSurface& lumen, int parts, std::size_
                     tears, genus, genus + 1));
 }
 
+std::string summary_of(const geometry::Tetrahedra& mesh, const std::vector<meshing::Tear>& tears) {
+  std::string text = fmt::format("{} tetrahedra, {} tears", mesh.elements.size(), tears.size());
+  for (std::size_t t = 0; t < tears.size(); ++t)
+    text += fmt::format("{}{:.0f}", t == 0 ? " of " : ", ", 1e6 * tears[t].area);
+  return tears.empty() ? text : text + " mm^2";
+}
+
 }  // namespace
 
 MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) {
@@ -107,10 +114,10 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   const auto report = meshing::mesh_report({data, layers, fidelity, prepared.thickness, tears, phases.seconds,
                                             artifacts::peak_memory(), case_file::describe(mesh_case.size), across});
   return {std::move(data), config::json_text(report), meshing::report_text(report),
-          mesh_page({mesh_case.title, mesh, regions, tears, prepared, report})};
+          mesh_page({mesh_case.title, mesh, regions, tears, prepared, report}), summary_of(mesh, tears)};
 }
 
-std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say,
+WrittenMesh mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, const files::Say& say,
                           const std::function<void()>& before_work) {
   const auto& folder = mesh_case.output;
   const auto report_file = folder / "report.json";
@@ -131,7 +138,7 @@ std::string mesh_to_files(const case_file::MeshCase& mesh_case, bool overwrite, 
                                                                                           {meshing::wall_interface}}));
   files::write_atomically(folder / "report.html", made.report_page);
   files::write_atomically(report_file, made.report_json);
-  return made.report_text;
+  return {made.report_text, made.summary};
 }
 
 }  // namespace tunica::stages
