@@ -21,7 +21,7 @@ namespace {
 using geometry::TriangleSurface;
 
 constexpr int sweeps = 80;
-constexpr double roughest = 0.08;      // voxels of noise that a surface may have
+constexpr double roughest = 0.12;      // voxels of noise that a surface may have
 constexpr double farthest_way = 3;     // of the noise; what is farther off is shape
 constexpr double continued = 6;        // voxels beyond an end
 constexpr double thinnest_flap = 1.3;  // voxels; thinner sheets fall between the samples of the field
