@@ -301,7 +301,13 @@ Disturbed cut_bridge(const Body& body, std::mt19937& random) {
 
 Disturbed thrombus(const Body& body, std::mt19937& random) {
   auto d = undisturbed(body, usual_voxel(random));
-  const double height = body.model.openings().back().centre[2] + from(random, 15e-3, 50e-3);
+  std::vector<double> heights;  // of the false lumen
+  for_each_voxel(d, [&](std::int16_t& label, const Point& p, std::int64_t) {
+    if (label == scan_false_lumen) heights.push_back(p[2]);
+  });
+  std::sort(heights.begin(), heights.end());
+  const double height =
+      heights[static_cast<std::size_t>(from(random, 0.15, 0.45) * static_cast<double>(heights.size()))];
   for_each_voxel(d, [&](std::int16_t& label, const Point& p, std::int64_t) {
     if (label == scan_false_lumen && p[2] < height) label = 3;
   });

@@ -126,7 +126,10 @@ int voxelise(const std::vector<std::string>& words) {
     std::puts("voxelise_surface LUMEN.vtp LUMEN_MESH|- VOXEL_MM NOISE IMAGE [SEED]");
     return 2;
   }
-  const geometry::TriangleTree tree(closed(geometry::read_surface(words[0], 1e-3)));
+  auto surface = closed(geometry::read_surface(words[0], 1e-3));
+  if (geometry::enclosed_volume(surface) < 0)
+    for (auto& t : surface.triangles) std::swap(t[1], t[2]);
+  const geometry::TriangleTree tree(std::move(surface));
   const double voxel = 1e-3 * std::stod(words[2]);
   LabelImage image{frame_around(tree.surface(), voxel), {}};
   auto set = voxels_within(tree, image.frame);

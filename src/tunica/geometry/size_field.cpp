@@ -50,7 +50,9 @@ std::pair<double, std::int64_t> largest_ball(const TriangleTree& lumen, const Po
   for (;;) {
     const auto q = lumen.nearest_if(p - radius * n, enough * radius, faces);
     if (!q) return {touched < 0 ? infinity : 2 * radius, touched};
+    const double before = radius;
     shrink(q);
+    if (!(radius < before)) return {2 * before, touched};  // walls touch at p, and rounding is all that is left
   }
 }
 

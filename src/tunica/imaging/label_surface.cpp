@@ -22,6 +22,7 @@ using geometry::TriangleSurface;
 
 constexpr int sweeps = 80;
 constexpr double roughest = 0.12;      // voxels of noise that a surface may have
+constexpr double thinnest_wall = 0.4;  // voxels; smoothing leaves no less of a flap
 constexpr double farthest_way = 3;     // of the noise; what is farther off is shape
 constexpr double continued = 6;        // voxels beyond an end
 constexpr double thinnest_flap = 1.3;  // voxels; thinner sheets fall between the samples of the field
@@ -100,7 +101,7 @@ void take_noise(TriangleSurface& surface, double voxel, const Log& log) {
     log(fmt::format("the labels are rough: noise of {:.2f} mm is taken from the surface, which then has {:.2f} mm",
                     1e3 * rough, 1e3 * roughness(surface)));
   }
-  if (const auto moved = untangle(surface, contour); moved > 0)
+  if (const auto moved = untangle(surface, contour, thinnest_wall * voxel); moved > 0)
     log(fmt::format("{} points are kept where the labels have them, since triangles would cross", moved));
 }
 

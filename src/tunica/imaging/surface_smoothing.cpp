@@ -57,6 +57,23 @@ class Neighbourhood {
   std::vector<Vec3<double>> way_;
 };
 
+using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+/// Triangles that face away from each other with less than `gap` between them: they cross when both move by half of it.
+Pairs too_close(const geometry::TriangleSurface& surface, double gap) {
+  constexpr double opposite = -0.3;
+  auto wider = surface;
+  const auto normals = geometry::point_normals(surface);
+  for (std::size_t p = 0; p < normals.size(); ++p) wider.points[p] = wider.points[p] + (0.5 * gap) * normals[p];
+  Pairs result;
+  for (const auto& pair : geometry::crossing_triangles(wider)) {
+    const auto a = geometry::area_vector(surface, surface.triangles[pair.first]);
+    const auto b = geometry::area_vector(surface, surface.triangles[pair.second]);
+    if (dot(a, b) < opposite * norm(a) * norm(b)) result.push_back(pair);
+  }
+  return result;
+}
+
 }  // namespace
 
 void smooth_surface(geometry::TriangleSurface& surface, int sweeps) {
@@ -91,14 +108,16 @@ void smooth_rough_surface(geometry::TriangleSurface& surface, double farthest) {
   }
 }
 
-std::int64_t untangle(geometry::TriangleSurface& surface, std::span<const Point> before) {
+std::int64_t untangle(geometry::TriangleSurface& surface, std::span<const Point> before, double gap) {
   constexpr int rounds = 12;
   constexpr double step = 0.25;
   const Neighbourhood near(surface);
   const auto smooth = surface.points;
   std::vector<double> back(smooth.size(), 0);
   for (int round = 0; round < rounds; ++round) {
-    const auto pairs = geometry::crossing_triangles(surface);
+    auto pairs = geometry::crossing_triangles(surface);
+    const auto close = too_close(surface, gap);
+    pairs.insert(pairs.end(), close.begin(), close.end());
     if (pairs.empty()) break;
     std::vector<bool> marked(smooth.size(), false);
     for (const auto& pair : pairs)

@@ -19,8 +19,9 @@ double roughness(const geometry::TriangleSurface& surface);
 /// Takes such noise from a closed surface, eq. (9.4) with longer waves. No point moves by more than `farthest` [m].
 void smooth_rough_surface(geometry::TriangleSurface& surface, double farthest);
 
-/// Takes points back towards `before`, where no triangles cross, until none do. Returns how many were moved; the
-/// surface may still cross where it does with all points of the place at `before`.
-std::int64_t untangle(geometry::TriangleSurface& surface, std::span<const geometry::Point> before);
+/// Takes points back towards `before`, where no triangles cross, until none do and walls between two sides of the
+/// surface are at least about `gap` [m] thick. Returns how many were moved. Places where the surface at `before` is no
+/// better stay as there.
+std::int64_t untangle(geometry::TriangleSurface& surface, std::span<const geometry::Point> before, double gap);
 
 }  // namespace tunica::imaging

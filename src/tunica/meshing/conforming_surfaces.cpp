@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "tunica/base/error.hpp"
 #include "tunica/geometry/self_intersections.hpp"
@@ -86,9 +85,30 @@ double largest_distance(const std::vector<Sheet>& sheets) {
   return result;
 }
 
+/// Of points that lie together, such as all that are measured at one spike, the first.
+std::vector<geometry::Point> apart(const std::vector<geometry::Point>& points) {
+  constexpr double together = 4e-3;  // m
+  std::vector<geometry::Point> result;
+  for (const auto& p : points)
+    if (std::none_of(result.begin(), result.end(), [&](const auto& other) { return norm(p - other) < together; }))
+      result.push_back(p);
+  return result;
+}
+
 /// A few places beyond the bounds are no reason to have no mesh.
-bool may_stay(const std::vector<Sheet>& sheets, std::int64_t far, std::int64_t crossings, const Accuracy& accuracy) {
-  return crossings == 0 && far <= accuracy.few && largest_distance(sheets) <= accuracy.farthest;
+bool may_stay(const std::vector<Sheet>& sheets, const std::vector<geometry::Point>& far, std::int64_t crossings,
+              const Accuracy& accuracy) {
+  constexpr std::size_t measured_at_each = 20;
+  const auto few = static_cast<std::size_t>(accuracy.few);
+  return crossings == 0 && far.size() <= measured_at_each * few && apart(far).size() <= few &&
+         largest_distance(sheets) <= accuracy.farthest;
+}
+
+/// Whether finer edges have not helped for two rounds: `counts` of places and crossings after each round.
+bool stalls(const std::vector<std::int64_t>& counts) {
+  constexpr double hardly_fewer = 0.85;
+  const auto n = counts.size();
+  return n >= 3 && static_cast<double>(counts[n - 1]) > hardly_fewer * static_cast<double>(counts[n - 3]);
 }
 
 [[noreturn]] void give_up(int round, std::int64_t far, std::int64_t crossings,
@@ -108,7 +128,7 @@ void remesh_together(std::vector<Sheet>& sheets, const Accuracy& accuracy, doubl
     sheet.asked = sheet.original.sizes;
   }
   std::vector<bool> due(sheets.size(), true);
-  std::int64_t before = std::numeric_limits<std::int64_t>::max();
+  std::vector<std::int64_t> counts;
   int worse = 0;  // rounds in a row that left more places than the one before
   for (int round = 1;; ++round) {
     std::vector<Spots> spots(sheets.size());
@@ -129,12 +149,14 @@ void remesh_together(std::vector<Sheet>& sheets, const Accuracy& accuracy, doubl
     std::vector<geometry::Point> places;
     for (std::size_t s = 0; s < sheets.size(); ++s)
       for (const auto p : spots[s]) places.push_back(sheets[s].original.tree.surface().points[p]);
-    worse = far + crossings > before ? worse + 1 : 0;
-    before = far + crossings;
-    if (round == accuracy.rounds || worse == 2) {
-      if (!may_stay(sheets, far, crossings, accuracy)) give_up(round, far, crossings, places);
-      log(fmt::format("warning: {} places stay up to {:.2f} mm from the original surface, near {}", far,
-                      1e3 * largest_distance(sheets), geometry::list_places_mm(places)));
+    worse = !counts.empty() && far + crossings > counts.back() ? worse + 1 : 0;
+    counts.push_back(far + crossings);
+    const bool few = may_stay(sheets, places, crossings, accuracy), last = round == accuracy.rounds || worse == 2;
+    if (last && !few) give_up(round, far, crossings, places);
+    if (last || (few && stalls(counts))) {
+      const auto spots_left = apart(places);
+      log(fmt::format("warning: {} places stay up to {:.2f} mm from the original surface, near {}", spots_left.size(),
+                      1e3 * largest_distance(sheets), geometry::list_places_mm(spots_left)));
       return;
     }
     for (std::size_t s = 0; s < sheets.size(); ++s) {

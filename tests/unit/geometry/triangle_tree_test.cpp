@@ -3,6 +3,7 @@
 #include <random>
 
 #include "small_surfaces.hpp"
+#include "tunica/geometry/nearby_search.hpp"
 
 namespace tunica::geometry {
 namespace {
@@ -30,6 +31,23 @@ TEST(TriangleTree, FindsTheNearestPointOfAllTriangles) {
     EXPECT_NEAR(found.distance, best, 1e-12);
     EXPECT_NEAR(norm(found.place - x), best, 1e-12);
     EXPECT_FALSE(tree.nearest(x, 0.99 * best));
+  }
+}
+
+TEST(NearbySearch, FindsWhatTheTreeFindsWhateverIsKnown) {
+  const TriangleTree tree(tube(1.0, 2.0, 16, 8));
+  std::int64_t near = -1;
+  for (const auto& x : random_points(200, 2.0)) {
+    const double distance = tree.nearest(x).distance;
+    // The triangle found last is near some of these places and far from others.
+    const auto found = nearest_from(tree, x, near);
+    EXPECT_NEAR(found.distance, distance, 1e-12);
+    EXPECT_EQ(found.triangle, near);
+    const auto before = near;
+    EXPECT_NEAR(nearest_from(tree, x, near, 1.01 * distance).distance, distance, 1e-12);
+    EXPECT_FALSE(nearest_from(tree, x, near, 0.99 * distance));
+    EXPECT_EQ(near, -1);
+    near = before;
   }
 }
 

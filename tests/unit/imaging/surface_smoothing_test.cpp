@@ -168,9 +168,16 @@ TEST(SurfaceSmoothing, PointsGoBackWhereTrianglesWouldCross) {
   for (std::size_t p = surface.points.size() / 2; p < surface.points.size(); ++p)
     if (surface.points[p][0] < 1.5) surface.points[p][0] -= 0.08;
   ASSERT_FALSE(geometry::crossing_triangles(surface).empty());
-  const auto moved = untangle(surface, before.points);
+  const auto moved = untangle(surface, before.points, 0.02);
   EXPECT_TRUE(geometry::crossing_triangles(surface).empty());
   EXPECT_GT(moved, 0);
+  // A wall of 0.02 is left between them.
+  double nearest = 1;
+  const auto half = surface.points.size() / 2;
+  for (std::size_t p = 0; p < half; ++p)
+    for (std::size_t q = half; q < 2 * half; ++q)
+      nearest = std::min(nearest, norm(surface.points[p] - surface.points[q]));
+  EXPECT_GT(nearest, 0.015);
   EXPECT_LT(moved, std::ssize(surface.points) / 4);
 }
 

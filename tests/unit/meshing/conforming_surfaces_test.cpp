@@ -53,5 +53,27 @@ TEST(RemeshTogether, AFewPlacesMayStayTooFarWithAWarning) {
   EXPECT_TRUE(says(message_of<SolverError>(make), "places are too far from the original surface"));
 }
 
+TEST(RemeshTogether, PlacesThatLieTogetherAreOne) {
+  // A spike of 1 mm on a tube: many edges, triangles and points there are beyond 0.1 mm.
+  auto surface = tube(5e-3, 10e-3, 90, 60);
+  for (auto& p : surface.points) {
+    const double away = norm(p - geometry::Point{{5e-3, 0, 5e-3}});
+    const double height = std::max(0.0, 1e-3 * (1 - away / 1.2e-3));
+    const double radius = std::hypot(p[0], p[1]);
+    p[0] *= 1 + height / radius;
+    p[1] *= 1 + height / radius;
+  }
+  Accuracy accuracy;
+  accuracy.rounds = 1;
+  accuracy.few = 3;
+  accuracy.absolute = 0.1e-3;
+  accuracy.per_edge = 10;
+  std::string last;
+  std::vector<Sheet> sheets;
+  sheets.push_back({{geometry::TriangleTree(surface), {}, std::vector<double>(surface.points.size(), 1.5e-3)}, {}, {}});
+  remesh_together(sheets, accuracy, 0.3, [&](const std::string& line) { last = line; });
+  EXPECT_TRUE(says(last, "warning: 1 places stay up to 0.")) << last;
+}
+
 }  // namespace
 }  // namespace tunica::meshing
