@@ -21,7 +21,7 @@ namespace {
 using geometry::TriangleSurface;
 
 constexpr int sweeps = 80;
-constexpr double roughest = 0.12;      // voxels of noise that a surface may have
+constexpr double roughest = 0.15;      // voxels of noise that a surface may have
 constexpr double thinnest_wall = 0.4;  // voxels; smoothing leaves no less of a flap
 constexpr double farthest_way = 3;     // of the noise; what is farther off is shape
 constexpr double continued = 6;        // voxels beyond an end
@@ -190,12 +190,12 @@ TriangleSurface around_thrombus(const LabelImage& image, const SurfaceSettings& 
     const bool within = label == blood || label == settings.labels.thrombus || label == settings.labels.false_lumen;
     label = static_cast<std::int16_t>(within ? blood : 0);
   }
-  auto repairs = settings.repairs;
-  repairs.asked[static_cast<std::size_t>(Repair::pieces)] = true;  // clots outside of the vessel
-  const auto say = [&](const std::string& line) {
-    if (!line.starts_with("label")) log("lumen and thrombus: " + line);
-  };
-  auto mask = with_even_voxels(lumen_mask(joined, {blood, std::nullopt}, margin_for(image.frame), say, repairs));
+  // The labels were checked with the lumen. What is not whole here is a clot apart from the vessel, or a flap, which
+  // looks like missing slices between lumens that are one.
+  const Repairs repairs{{true, true, false}};
+  const auto silent = [](const std::string&) {};
+  const auto say = [&](const std::string& line) { log("lumen and thrombus: " + line); };
+  auto mask = with_even_voxels(lumen_mask(joined, {blood, std::nullopt}, margin_for(image.frame), silent, repairs));
   const double voxel = mask.frame.largest_spacing();
   for (const auto& end : ends) continue_beyond(end, continued * voxel, mask);
   drop_beyond_ends(mask);

@@ -65,7 +65,7 @@ TEST(RemeshTogether, PlacesThatLieTogetherAreOne) {
   }
   Accuracy accuracy;
   accuracy.rounds = 1;
-  accuracy.few = 3;
+  accuracy.few = 5;
   accuracy.absolute = 0.1e-3;
   accuracy.per_edge = 10;
   std::string last;
