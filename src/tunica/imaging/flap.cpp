@@ -57,10 +57,22 @@ void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed,
   if (closed.size() > most_listed) log(fmt::format("and {} smaller ones", closed.size() - most_listed));
 }
 
+/// `contacts`: largest first.
 double smallest_tear(const std::vector<Contact>& contacts, const TearBounds& bounds) {
   const double least = bounds.at_least();
   const auto small = std::count_if(contacts.begin(), contacts.end(), [&](const auto& c) { return c.area < least; });
-  return bounds.smallest || small < many_contacts ? least : 3 * least;
+  if (bounds.smallest || small < many_contacts) return least;
+  // Contacts that noise makes have all areas up to their largest one; tears stand apart from them.
+  constexpr double gap = 1.5;
+  double bound = 3 * least, largest_below = 0;
+  for (auto contact = contacts.rbegin(); contact != contacts.rend(); ++contact) {
+    if (contact->area >= bound) {
+      if (contact->area > gap * largest_below || contact->area > 6 * least) break;
+      bound = 1.001 * contact->area;
+    }
+    largest_below = contact->area;
+  }
+  return bound;
 }
 
 /// The voxels between the lumens within the circle of a given tear.
