@@ -136,7 +136,7 @@ std::string page_of(const Scene& scene, const std::string& title, const std::vec
 Scene scene_of(meshing::GeometrySurfaces made) {
   Scene scene;
   scene.openings = geometry::find_openings(made.surfaces.lumen, nullptr, made.surfaces.names);
-  scene.genus = geometry::genus(made.surfaces.lumen, std::ssize(scene.openings)) + made.lumen_parts - 1;
+  scene.genus = geometry::genus(made.surfaces.lumen, std::ssize(scene.openings), made.lumen_parts);
   scene.of_false_lumen = std::move(made.labelled.of_false_lumen);
   scene.tears = std::move(made.labelled.tears);
   scene.lumen = std::move(made.surfaces.lumen);
