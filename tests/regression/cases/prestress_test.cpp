@@ -81,6 +81,8 @@ TEST_P(PrestressedTube, StaysWhereItIs) {
 INSTANTIATE_TEST_SUITE_P(
     Walls, PrestressedTube,
     testing::Values(Variant{"neo_hooke", neo_hooke, ""}, Variant{"second_piola", neo_hooke, ", update: second_piola"},
+                    Variant{"inverse", neo_hooke, ", method: inverse"},
+                    Variant{"quadratic_dfd_inverse", dfd, ", method: inverse", "quadratic"},
                     Variant{"stretch", neo_hooke, ", method: stretch"}, Variant{"dfd", dfd, ""},
                     Variant{"dfd_stretch", dfd, ", method: stretch"},
                     Variant{"displacement",
