@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "closed_surface.hpp"
 #include "disturbed_labels.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/geometry/triangle_tree.hpp"
@@ -25,16 +26,7 @@ namespace {
 
 using geometry::TriangleSurface;
 
-TriangleSurface closed(TriangleSurface surface) {
-  for (const auto& loop : geometry::boundary_loops(surface)) {
-    Point centre{{0, 0, 0}};
-    for (const auto p : loop) centre = centre + (1.0 / static_cast<double>(loop.size())) * surface.points[p];
-    surface.points.push_back(centre);
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      surface.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], std::ssize(surface.points) - 1});
-  }
-  return surface;
-}
+using test::closed;
 
 double lumen_volume(const geometry::DissectionModel& model) {
   const double h = 0.9e-3;

@@ -12,6 +12,7 @@
 #include <random>
 #include <unordered_map>
 
+#include "closed_surface.hpp"
 #include "tunica/geometry/nearby_search.hpp"
 #include "tunica/geometry/surface_file.hpp"
 #include "tunica/geometry/triangle_tree.hpp"
@@ -26,17 +27,7 @@ namespace {
 
 using geometry::Point;
 
-/// Closed by fans about the middles of its rims.
-geometry::TriangleSurface closed(geometry::TriangleSurface surface) {
-  for (const auto& loop : geometry::boundary_loops(surface)) {
-    Point centre{{0, 0, 0}};
-    for (const auto p : loop) centre = centre + (1.0 / static_cast<double>(loop.size())) * surface.points[p];
-    surface.points.push_back(centre);
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      surface.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], std::ssize(surface.points) - 1});
-  }
-  return surface;
-}
+using test::closed;
 
 ImageFrame frame_around(const geometry::TriangleSurface& surface, double voxel) {
   Point low = surface.points.front(), high = low;

@@ -2,45 +2,52 @@
 
 #include <petscpc.h>
 
+#include <initializer_list>
+#include <string>
 #include <utility>
 
 namespace tunica::assembly {
 
 using parallel::check;
 
+namespace {
+
+using Options = std::initializer_list<std::pair<const char*, const char*>>;
+
+/// Not yet bound to a matrix. `options`: names behind `prefix`, which is this kind's alone.
+parallel::PcHandle make_preconditioner(MPI_Comm comm, const std::string& prefix, PCType type, const Options& options) {
+  for (const auto& [key, value] : options) check(PetscOptionsSetValue(nullptr, ("-" + prefix + key).c_str(), value));
+  parallel::PcHandle result;
+  check(PCCreate(comm, result.out()));
+  check(PCSetOptionsPrefix(result, prefix.c_str()));
+  check(PCSetType(result, type));
+  check(PCSetFromOptions(result));
+  return result;
+}
+
+}  // namespace
+
 parallel::PcHandle make_multigrid(MPI_Comm comm) {
-  for (const auto& [key, value] : {std::pair{"-tunica_pc_hypre_boomeramg_coarsen_type", "HMIS"},
-                                   {"-tunica_pc_hypre_boomeramg_interp_type", "ext+i"},
-                                   {"-tunica_pc_hypre_boomeramg_strong_threshold", "0.5"},
-                                   {"-tunica_pc_hypre_boomeramg_P_max", "4"},
-                                   {"-tunica_pc_hypre_boomeramg_agg_nl", "1"},
-                                   {"-tunica_pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
-                                   {"-tunica_pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}})
-    check(PetscOptionsSetValue(nullptr, key, value));
-  parallel::PcHandle multigrid;
-  check(PCCreate(comm, multigrid.out()));
-  check(PCSetOptionsPrefix(multigrid, "tunica_"));
-  check(PCSetType(multigrid, PCHYPRE));
-  check(PCHYPRESetType(multigrid, "boomeramg"));
-  check(PCSetFromOptions(multigrid));
-  return multigrid;
+  return make_preconditioner(comm, "tunica_", PCHYPRE,
+                             {{"pc_hypre_type", "boomeramg"},
+                              {"pc_hypre_boomeramg_coarsen_type", "HMIS"},
+                              {"pc_hypre_boomeramg_interp_type", "ext+i"},
+                              {"pc_hypre_boomeramg_strong_threshold", "0.5"},
+                              {"pc_hypre_boomeramg_P_max", "4"},
+                              {"pc_hypre_boomeramg_agg_nl", "1"},
+                              {"pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
+                              {"pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}});
 }
 
 parallel::PcHandle make_elastic_multigrid(MPI_Comm comm) {
-  for (const auto& [key, value] : {std::pair{"-tunica_wall_pc_gamg_type", "agg"},
-                                   {"-tunica_wall_pc_gamg_agg_nsmooths", "1"},
-                                   {"-tunica_wall_pc_gamg_threshold", "0.05"},
-                                   {"-tunica_wall_pc_gamg_reuse_interpolation", "false"},
-                                   {"-tunica_wall_mg_levels_ksp_type", "chebyshev"},
-                                   {"-tunica_wall_mg_levels_ksp_max_it", "2"},
-                                   {"-tunica_wall_mg_levels_pc_type", "jacobi"}})
-    check(PetscOptionsSetValue(nullptr, key, value));
-  parallel::PcHandle multigrid;
-  check(PCCreate(comm, multigrid.out()));
-  check(PCSetOptionsPrefix(multigrid, "tunica_wall_"));
-  check(PCSetType(multigrid, PCGAMG));
-  check(PCSetFromOptions(multigrid));
-  return multigrid;
+  return make_preconditioner(comm, "tunica_wall_", PCGAMG,
+                             {{"pc_gamg_type", "agg"},
+                              {"pc_gamg_agg_nsmooths", "1"},
+                              {"pc_gamg_threshold", "0.05"},
+                              {"pc_gamg_reuse_interpolation", "false"},
+                              {"mg_levels_ksp_type", "chebyshev"},
+                              {"mg_levels_ksp_max_it", "2"},
+                              {"mg_levels_pc_type", "jacobi"}});
 }
 
 }  // namespace tunica::assembly

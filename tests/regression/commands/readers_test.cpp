@@ -42,7 +42,7 @@ TEST_F(Readers, NamesThatNoFileCanHave) {
   write_tube_case(std::string(300, 'd'));
   for (const char* command : {"check", "run", "prestress", "post"})
     expect_refused(fmt::format("{} case.yaml", command),
-                   "output.directory (case.yaml:13): a file or folder name of 300");
+                   "output.directory (case.yaml:14): a file or folder name of 300");
   expect_refused(fmt::format("check {}.yaml", std::string(300, 'c')), "File name too long");
 }
 

@@ -33,7 +33,7 @@ TEST_F(Text, CaseFilesInOtherEncodingsAreRefusedByCheckAndRun) {
   write("wide.yaml", utf16(flow_case));
   for (const char* command : {"check ", "run "}) {
     EXPECT_EQ(tunica(command + std::string("latin.yaml")), 2);
-    expect_printed("latin.yaml, line 6, column 11: holds the byte 0xe4");
+    expect_printed("latin.yaml, line 7, column 11: holds the byte 0xe4");
     EXPECT_EQ(tunica(command + std::string("wide.yaml")), 2);
     expect_printed("wide.yaml: is UTF-16, not UTF-8");
   }

@@ -165,8 +165,10 @@ class FaceExport {
 
 void FaceExport::course(Entry& entry, const bc::WaveformInput& input, const bc::Waveform& waveform, double factor) {
   if (fixed(input)) return add_key(entry, "Value", number(factor * waveform.value(0.0)));
-  // What starts, steps or is ramped repeats nowhere, so that the series spans the run.
-  const double span = waveform.period() && input.ramp_time == 0 ? *waveform.period() : e_.end();
+  // What starts, steps or is ramped repeats nowhere, so that the series spans the run, and a step beyond: its end is
+  // its start again.
+  const double span =
+      waveform.period() && input.ramp_time == 0 ? *waveform.period() : e_.end() + (e_.c.time ? e_.c.time->step : 0.0);
   bc::Table table{.times = {}, .values = {}, .modes = sampled_modes};
   std::string text = fmt::format("{} {}\n", sampled_points, sampled_modes);
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
