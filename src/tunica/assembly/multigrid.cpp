@@ -50,4 +50,13 @@ parallel::PcHandle make_elastic_multigrid(MPI_Comm comm) {
                               {"mg_levels_pc_type", "jacobi"}});
 }
 
+void set_up_elastic_multigrid(PC multigrid, Mat matrix) {
+  // The option has no prefix: it is taken back, so that products elsewhere in the process are not touched.
+  constexpr const char* product = "-matptap_via";
+  check(PetscOptionsSetValue(nullptr, product, "allatonce"));
+  check(PCSetOperators(multigrid, matrix, matrix));
+  check(PCSetUp(multigrid));
+  check(PetscOptionsClearValue(nullptr, product));
+}
+
 }  // namespace tunica::assembly

@@ -162,8 +162,7 @@ void WallCorrection::update(const BlockMatrix& matrix, std::span<const double> f
   accumulate(matrix);
   leave_out_prescribed();
   check(MatSetValuesCOO(matrix_, values_.data(), INSERT_VALUES));
-  check(PCSetOperators(multigrid_, matrix_, matrix_));
-  check(PCSetUp(multigrid_));
+  set_up_elastic_multigrid(multigrid_, matrix_);
 }
 
 void WallCorrection::apply(std::span<const double> r, std::span<double> x) {

@@ -151,13 +151,7 @@ TEST_P(PrestressOf, RunGoesOnBitForBit) {
     return slurp(folder.path() / results / "checkpoints/step_00000010.checkpoint");
   };
   EXPECT_FALSE(checkpoint("whole").empty());
-  // Not with quadratic walls from three ranks on (assembly/multigrid.hpp): to be exact there again.
-  if (std::string(GetParam()) == "linear" || parallel::size(MPI_COMM_WORLD) < 3) {
-    EXPECT_TRUE(checkpoint("whole") == checkpoint("parts")) << "the states differ";
-  }
-  const Table whole(folder.path() / "whole/balance.csv"), parts(folder.path() / "parts/balance.csv");
-  const double volume = whole.last("lumen volume [mm^3]");
-  EXPECT_NEAR(parts.last("lumen volume [mm^3]"), volume, 1e-9 * volume);
+  EXPECT_TRUE(checkpoint("whole") == checkpoint("parts")) << "the states differ";
 }
 
 TEST(Prestress, KeepsTheFlowWhenTheFixedPointFails) {
