@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "tunica/parallel/message.hpp"
+
 namespace tunica::assembly {
 
 using parallel::check;
@@ -51,12 +53,16 @@ parallel::PcHandle make_elastic_multigrid(MPI_Comm comm) {
 }
 
 void set_up_elastic_multigrid(PC multigrid, Mat matrix) {
-  // The option has no prefix: it is taken back, so that products elsewhere in the process are not touched.
-  constexpr const char* product = "-matptap_via";
-  check(PetscOptionsSetValue(nullptr, product, "allatonce"));
   check(PCSetOperators(multigrid, matrix, matrix));
+  MPI_Comm comm = MPI_COMM_NULL;
+  check(PetscObjectGetComm(reinterpret_cast<PetscObject>(multigrid), &comm));
+  // The option has no prefix: it is taken back, so that products elsewhere in the process are not touched. Matrices of
+  // one rank do not know it.
+  constexpr const char* product = "-matptap_via";
+  const bool several = parallel::size(comm) > 1;
+  if (several) check(PetscOptionsSetValue(nullptr, product, "allatonce"));
   check(PCSetUp(multigrid));
-  check(PetscOptionsClearValue(nullptr, product));
+  if (several) check(PetscOptionsClearValue(nullptr, product));
 }
 
 }  // namespace tunica::assembly
