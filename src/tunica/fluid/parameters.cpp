@@ -62,6 +62,10 @@ Schema<Parameters> Parameters::schema() {
       .by_default()
       .number("viscous_constant", &Parameters::c_i, above(0), "c_I of the stabilisation parameter tau_M")
       .by_default()
+      .choice("stabilisation", &Parameters::stabilisation,
+              {{"bounded", Stabilisation::bounded}, {"vms_classic", Stabilisation::vms_classic}},
+              "tau_C of linear elements: bounded as the step shrinks, or as related codes have it, with the step")
+      .by_default()
       .number("backflow_stabilisation", &Parameters::backflow, range(0, 1),
               "beta of the outlets; 0.5 cancels the kinetic energy that enters by reversed flow")
       .by_default();

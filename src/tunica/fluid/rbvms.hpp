@@ -186,13 +186,15 @@ TUNICA_INLINE Tau<T> stabilisation(const Flow<T>& f, double dt, const Parameters
   const T trace_g = g00 + g11 + g22;
   const T g_g = g00 * g00 + g11 * g11 + g22 * g22 + T(2.0) * (g01 * g01 + g12 * g12 + g20 * g20);
   const T nu = f.mu * T(1.0 / rho);
-  const T steady = T(4.0 * parameters.c_m * parameters.c_m / (dt * dt)) + T(parameters.c_i) * nu * nu * g_g;
+  const T rate = T(4.0 * parameters.c_m * parameters.c_m / (dt * dt));
+  const T diffusion = T(parameters.c_i) * nu * nu * g_g;
+  const T rate_in_c = parameters.stabilisation == Stabilisation::vms_classic ? rate : T(0.0);
   const T rho_over_trace = T(rho) / trace_g;
   Tau<T> tau;
   for (int q = 0; q < 4; ++q) {
-    const T root = sqrt(steady + metric(f.a[q]));
-    tau.m[q] = T(1.0 / rho) / root;
-    tau.c[q] = root * rho_over_trace;
+    const T flow = diffusion + metric(f.a[q]);
+    tau.m[q] = T(1.0 / rho) / sqrt(rate + flow);
+    tau.c[q] = sqrt(rate_in_c + flow) * rho_over_trace;
     const Vec3<T> v_prime = (-tau.m[q]) * momentum_residual(f, rho, q);
     tau.b[q] = T(rho) / sqrt(metric(v_prime) + T(1e-60));
   }

@@ -437,6 +437,7 @@ void translate_fluid(Context& context, const PosedProblem& problem, CaseKey& top
                       fmt::format("1060 kg/m^3, the default of tunica; {} would take 0.5", context.peer()));
   }
   translate_viscosity(context, properties, fluid);
+  fluid.add("stabilisation", "vms_classic", "as the peer's");
   if (const Entry* backflow = properties.find("Backflow_stabilization_coefficient"))
     fluid.add("backflow_stabilisation", context.quantity(*backflow, ""), backflow->where());
   else

