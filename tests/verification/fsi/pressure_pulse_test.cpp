@@ -42,6 +42,7 @@ ProblemInput pulse_input(wall::Element element) {
   in.fluid = fluid::Parameters{};
   in.fluid->density = 1000;
   in.fluid->viscosity = fluid::Newtonian{0.003};
+  in.fluid->stabilisation = fluid::Stabilisation::vms_classic;  // the arrival asked for is that of related codes
   in.wall = wall::Parameters{};
   in.wall->element = element;
   in.wall->density = 1200;

@@ -180,6 +180,8 @@ void export_blood(Exported& exported, Entry& domain) {
   add_key(domain, "Density", exported.in(exported.units.density, dimension::density, fluid.density));
   std::visit(ViscosityExport{exported, domain}, fluid.viscosity);
   add_key(domain, "Backflow_stabilization_coefficient", number(fluid.backflow));
+  if (fluid.stabilisation != fluid::Stabilisation::vms_classic)
+    exported.change("fluid.stabilisation", "svMultiPhysics has the rate of the step in tau_C: `vms_classic`");
 }
 
 void export_material(Exported& exported, const wall::LawParameters& material, double density, const std::string& where,
