@@ -17,7 +17,7 @@ constexpr const char* coupled =
     "  tube: {radius: 5 mm, length: 2 cm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, cells_along: 4, "
     "cells_through_wall: 1}\n"
     "  interface: {lumen: lumen_wall, wall: wall_inner}\n"
-    "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
+    "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}, stabilisation: vms_classic}\n"
     "wall:\n"
     "  element: displacement\n"
     "  density: 1100 kg/m^3\n"
@@ -60,8 +60,14 @@ TEST_F(Export, ComesBackAsTheSameProblem) {
                            "<Project_from_face> lumen_wall </Project_from_face>", "<Stiffness> 1000000 </Stiffness>",
                            "<a4> 200000 </a4>", "mesh/fibres_2.vtu"})
     EXPECT_NE(xml.find(part), std::string::npos) << part << "\n" << xml;
+  EXPECT_EQ(printed().find("fluid.stabilisation"), std::string::npos) << printed();
   EXPECT_EQ(tunica("export case.yaml -o out --units cgs"), 2);
   EXPECT_NE(printed().find("--overwrite"), std::string::npos);
+  std::string bounded = coupled;
+  bounded.erase(bounded.find(", stabilisation: vms_classic"), 28);
+  write("case.yaml", bounded);
+  ASSERT_EQ(tunica("export case.yaml -o out --units cgs --overwrite"), 0) << printed();
+  EXPECT_NE(printed().find("fluid.stabilisation: svMultiPhysics has the rate"), std::string::npos) << printed();
 
   // The families of fibres differ from element to element, for which the way back has no key.
   EXPECT_EQ(tunica("import out -o back.yaml --units cgs"), 2);
