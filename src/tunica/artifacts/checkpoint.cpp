@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tunica/artifacts/start_file.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
@@ -193,6 +194,17 @@ void write_checkpoint(const fs::path& file, const distributed::DistributedMesh& 
     parallel::on_root(mesh.comm, [&] { writer->write(values.data(), values.size() * sizeof(double)); });
   }
   parallel::on_root(mesh.comm, [&] { writer->finish(); });
+}
+
+void write_start(const fs::path& file, const coupling::State& state, std::uint64_t mesh_hash) {
+  Checkpoint checkpoint{.state = state, .position = {}, .mesh_hash = mesh_hash};
+  Writer writer(file);
+  writer.header(header_of(checkpoint, std::ssize(state.end_pressure)).dump());
+  for (const auto& field : nodal_fields(version)) {
+    const auto& values = state.*field.values;
+    writer.write(values.data(), values.size() * sizeof(double));
+  }
+  writer.finish();
 }
 
 std::string damage_of(const fs::path& file) {

@@ -84,7 +84,7 @@ LoadedMesh read_region(const fs::path& folder, const case_file::NamedFiles& file
 LoadedMesh read_regions(const case_file::MeshSettings& m, const WallArrays& arrays) {
   std::vector<LoadedMesh> parts;
   std::vector<Problem> problems;
-  const mesh_io::SimVascularOptions options{.metres_per_unit = m.metres()};
+  const mesh_io::SimVascularOptions options{.metres_per_unit = m.metres(), .specimen = !m.lumen};
   if (m.lumen)
     collect(problems, [&] {
       parts.push_back(read_region(m.lumen->simvascular, m.lumen->files, RegionKind::lumen, "lumen", options));
@@ -161,7 +161,7 @@ void report_quality(CheckedMesh& mesh, std::vector<Problem>& problems) {
 CheckedMesh read_and_measure(const case_file::MeshSettings& m, const WallArrays& arrays,
                              std::vector<Problem>& problems) {
   LoadedMesh loaded = read_or_generate(m, arrays);
-  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), {}};
+  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), std::move(loaded.warnings)};
   report_quality(mesh, problems);
   if (const auto odd = mesh::implausible_size(mesh.data, m.metres_per_unit ? std::optional(m.metres()) : std::nullopt))
     mesh.warnings.push_back(format(*odd));

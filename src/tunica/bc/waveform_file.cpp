@@ -61,12 +61,20 @@ Table read_csv(const TableFile& file) {
   return table;
 }
 
+/// svSolver's .flow files have no line of points and modes before their times, the first of which is 0 then.
+bool begins_with_a_time(const std::vector<files::TextLine>& lines) {
+  const auto first = split_blanks(lines[0].text);
+  return first.size() == 2 && files::is_number(first[0]) && files::parse_number(first[0], "", "") == 0;
+}
+
 Table read_simvascular(const TableFile& file) {
-  const char* remedy = "the first line is \"points modes\", each other one \"time value\"";
+  const char* remedy = "the first line is \"points modes\" (or none), each other one \"time value\"";
   const auto lines = files::read_lines(file.path, remedy);
   const auto where = [&](const files::TextLine& line) { return fmt::format("{}:{}", file.path.string(), line.number); };
   const auto number = [&](const files::TextLine& line, std::string_view cell) {
-    return files::parse_number(cell, where(line), "");
+    std::string plain(cell);  // svFSI reads exponents after D, as Fortran writes them
+    if (const auto d = plain.find_first_of("dD"); d != std::string::npos && d > 0) plain[d] = 'e';
+    return files::parse_number(plain, where(line), "");
   };
   const auto header = split_blanks(lines[0].text);
   const auto whole = [&](std::size_t i) {
@@ -77,10 +85,11 @@ Table read_simvascular(const TableFile& file) {
   };
   if (header.size() != 2)
     throw InputError(where(lines[0]), fmt::format("the first line has {} entries, not 2", header.size()), remedy);
-  const std::size_t points = whole(0);
+  const bool headless = begins_with_a_time(lines);
+  const std::size_t points = headless ? lines.size() : whole(0);
   Table table;
-  table.modes = static_cast<int>(whole(1));
-  for (std::size_t n = 1; n < lines.size(); ++n) {
+  if (!headless) table.modes = static_cast<int>(whole(1));
+  for (std::size_t n = headless ? 0 : 1; n < lines.size(); ++n) {
     const auto cells = split_blanks(lines[n].text);
     if (cells.size() != 2) throw InputError(where(lines[n]), fmt::format("{} entries, not 2", cells.size()), remedy);
     append(table, number(lines[n], cells[0]) * file.time_unit, number(lines[n], cells[1]) * file.value_unit,

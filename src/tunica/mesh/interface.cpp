@@ -68,6 +68,7 @@ LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
     }
     for (const auto& [wall, lumen] : part.data.twins) all.data.twins.emplace_back(wall + node, lumen + node);
     all.report.insert(all.report.end(), part.report.begin(), part.report.end());
+    all.warnings.insert(all.warnings.end(), part.warnings.begin(), part.warnings.end());
   }
   return all;
 }

@@ -10,7 +10,8 @@ namespace tunica::mesh {
 
 struct LoadedMesh {
   MeshData data;
-  std::vector<std::string> report;  ///< one line per face or decision, for the log
+  std::vector<std::string> report;         ///< one line per face or decision, for the log
+  std::vector<std::string> warnings = {};  ///< what may be a slip
 };
 
 }  // namespace tunica::mesh

@@ -15,6 +15,7 @@
 #include "tunica/mesh/point_locator.hpp"
 #include "tunica/mesh/quality.hpp"
 #include "tunica/mesh_io/extent.hpp"
+#include "tunica/mesh_io/quadratic_cells.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::mesh_io {
@@ -23,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Index = std::int64_t;
-
-constexpr int vtk_triangle = 5, vtk_tetrahedron = 10;
 
 /// Points in metres. Throws where a coordinate is not a finite number.
 std::vector<Vec3<double>> scaled_points(const VtkCells& cells, double metres_per_unit, const std::string& where) {
@@ -263,7 +262,7 @@ void add_other_files(const std::string& face, const Volume& volume, const SimVas
   const auto others = options.other_face_files.find(face);
   if (others == options.other_face_files.end()) return;
   for (const OtherFile& other : others->second) {
-    auto file = read_vtk_surface(other.file, {other.array});
+    auto file = read_face_cells(other.file, {other.array});
     const auto where = other.file.string();
     const auto points = scaled_points(file, options.metres_per_unit, where);
     const auto triangles = cells_of_type<3>(file, vtk_triangle, "triangles", options.metres_per_unit, where);
@@ -285,7 +284,7 @@ mesh::FaceData read_face(const std::string& name, const fs::path& path, const Vo
                          std::vector<std::string>& report) {
   const auto wanted = options.face_arrays.find(name);
   const auto file =
-      read_vtk_surface(path, wanted == options.face_arrays.end() ? std::vector<std::string>{} : wanted->second);
+      read_face_cells(path, wanted == options.face_arrays.end() ? std::vector<std::string>{} : wanted->second);
   const auto where = path.string();
   const auto points = scaled_points(file, options.metres_per_unit, where);
   mesh::FaceData face{name, 0, {}};
@@ -408,14 +407,17 @@ mesh::LoadedMesh read_mesh_files(const MeshFiles& files, mesh::RegionKind kind, 
     throw InputError(where, fmt::format("length unit of {} m, must be positive", options.metres_per_unit),
                      "declare the length unit of the mesh");
   auto file = read_volume(files, kind, options);
+  const Straightened straightened = keep_corners(file);
   mesh::LoadedMesh mesh;
+  if (straightened.any) mesh.report.push_back(where + ": ten-node tetrahedra, of which the corners are kept");
+  if (auto bent = describe(straightened, where); !bent.empty()) mesh.warnings.push_back(std::move(bent));
   auto& data = mesh.data;
   data.points = scaled_points(file, options.metres_per_unit, where);
   data.tetrahedra = cells_of_type<4>(file, vtk_tetrahedron, "tetrahedra", options.metres_per_unit, where);
   data.regions = {{name, kind, 0, std::ssize(data.tetrahedra)}};
   for (const auto& field : file.fields) refuse_not_finite(field, where);
   for (const auto& field : file.node_fields) refuse_not_finite(field, where);
-  refuse_unlikely_size(data.points, options.metres_per_unit, where);
+  if (!options.specimen) refuse_unlikely_size(data.points, options.metres_per_unit, where);
   refuse_unused_nodes(data, where);
   mesh.report.push_back(fmt::format("{}: {} nodes, {} tetrahedra, {} faces; GlobalNodeID {}, GlobalElementID {}", where,
                                     data.points.size(), data.tetrahedra.size(), files.faces.size(),

@@ -33,6 +33,7 @@ struct SimVascularOptions {
   std::map<std::string, std::vector<std::string>> face_arrays{};  ///< point arrays of faces that are kept, by face
   std::vector<OtherFile> other_files{};  ///< where arrays of `fields` and `regions` stand, if not in the volume
   std::map<std::string, std::vector<OtherFile>> other_face_files{};  ///< point arrays of faces that are kept, likewise
+  bool specimen = false;                                             ///< a solid without blood, which may have any size
 };
 
 /// Volume and faces wherever they lie.
@@ -53,9 +54,10 @@ struct MeshFiles {
 ///
 /// Returns one region called `name`, or the named ones, which share their nodes; a face that bounds several of them is
 /// one face. Faces are called after their files. Throws InputError for missing or
-/// unreadable files, cells that are not linear tetrahedra, coordinates that are not finite, nodes without element,
-/// inverted elements, face nodes that the volume does not have, a boundary that the faces do not cover exactly once,
-/// cell or point arrays that are absent or not finite, region numbers without a name and names without an element.
+/// unreadable files, cells that are no tetrahedra (of ten-node ones the corners are taken, keep_corners()), coordinates
+/// that are not finite, nodes without element, inverted elements, face nodes that the volume does not have, a boundary
+/// that the faces do not cover exactly once, cell or point arrays that are absent or not finite, region numbers without
+/// a name and names without an element.
 mesh::LoadedMesh read_simvascular(const std::filesystem::path& folder, mesh::RegionKind kind, const std::string& name,
                                   const SimVascularOptions& options);
 

@@ -54,6 +54,9 @@ class Check {
   void read_head() {
     if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) another_kind("is empty");
     if (text_.starts_with("# vtk")) another_kind("is a legacy VTK file, not an XML one");
+    if (text_.starts_with("version https://git-lfs"))
+      throw InputError(where_, "is a pointer of Git LFS, not the file that it stands for",
+                       "fetch the files of the repository with `git lfs pull`");
     if (text_[text_.find_first_not_of(" \t\r\n\xef\xbb\xbf")] != '<') another_kind("is no XML file");
     const auto head = tags_.next();
     if (!head || head->name != "VTKFile" || head->empty) another_kind("is an XML file, but not one of VTK");

@@ -12,7 +12,7 @@
 namespace tunica::peer_cases {
 
 enum class ConditionType { dirichlet, neumann, traction, robin };
-enum class Dependence { steady, unsteady, resistance, rcr, coupled };
+enum class Dependence { steady, unsteady, spatial, resistance, rcr, coupled };
 
 /// One condition of the main equation, and where it acts.
 struct ConditionPart {
@@ -54,12 +54,15 @@ class Conditions {
   void zerod_outlet(const ConditionPart& part);
   void wall_motion(const ConditionPart& part);
   void wall_pressure(const ConditionPart& part);
+  void pressure_by_nodes(const ConditionPart& part);
   void traction(const ConditionPart& part);
   void support(const ConditionPart& part);
 
   CaseKey& face(const ConditionPart& part) { return boundary_.section(part.entry.label, part.entry.where()); }
   /// Value or table of a time course, in that unit; none: a factor.
   void course(const ConditionPart& part, const char* unit, CaseKey& to);
+  /// Name of the file of a table: of a load that of a copy, whose times are earlier.
+  std::string file_of(const ConditionPart& part, const Entry& file);
   bool table(const ConditionPart& part, const char* unit, CaseKey& to);
   /// Axes of Effective_direction; none where it is not there, or names all.
   std::vector<int> axes(const Entry& condition) const;

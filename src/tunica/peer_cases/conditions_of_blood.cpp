@@ -98,6 +98,15 @@ void Conditions::outlet(const ConditionPart& part) {
   add(*values, "Distal_pressure", units.pressure, rcr, "distal_pressure", false);
   if (values->find("Distal_pressure") == nullptr)
     context_.defaulted(*values, "Distal_pressure", "0, the default of both");
+  if (const Entry* follow = problem_.main->find("Initialize_RCR_from_flow");
+      follow != nullptr && context_.flag(*problem_.main, follow->key)) {
+    if (const Entry* initial = values->find("Initial_pressure"))
+      context_.remarks.dropped.push_back(initial->where() + ": has no effect with Initialize_RCR_from_flow");
+    // Left out, it is what is left of the pressure of the start behind R_p Q.
+    if (!context_.initial)
+      rcr.add("initial_pressure", with_unit(0.0, units.pressure), follow->where() + ", at rest without a pressure");
+    return;
+  }
   add(*values, "Initial_pressure", units.pressure, rcr, "initial_pressure", false);
   if (values->find("Initial_pressure") == nullptr) {
     rcr.add("initial_pressure", with_unit(0.0, units.pressure), fmt::format("the default of {}", context_.peer()));

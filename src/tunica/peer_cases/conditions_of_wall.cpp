@@ -22,6 +22,12 @@ void Conditions::wall_motion(const ConditionPart& part) {
   if (!profile_is(part, "Flat"))
     return context_.missing(*part.entry.find("Profile"), "a displacement with a profile over the face",
                             "remove Profile");
+  if (context_.flag(part.entry, "Zero_out_perimeter", true))
+    return context_.missing(
+        part.entry,
+        fmt::format("a face that is moved while its rim stays, which {} takes without Zero_out_perimeter",
+                    context_.peer()),
+        "write Zero_out_perimeter false to move the whole face");
   if (context_.flag(part.entry, "Impose_flux"))
     return context_.missing(*part.entry.find("Impose_flux"), "a displacement given by its integral",
                             "give the displacement");
@@ -62,6 +68,28 @@ void Conditions::wall_pressure(const ConditionPart& part) {
     context_.changed(part.entry, fmt::format("the load acts on the face of the present step, in {} on that of the step "
                                              "before",
                                              context_.peer()));
+}
+
+/// A pressure that differs from node to node is that of surroundings without stiffness.
+void Conditions::pressure_by_nodes(const ConditionPart& part) {
+  const Entry* file = part.entry.find("Spatial_values_file_path");
+  const Entry& time = *part.entry.find("Time_dependence");
+  if (part.type != ConditionType::neumann) return context_.refuse(time, "is for Neu conditions", "write Steady");
+  if (file == nullptr) return context_.refuse(part.entry, "is Spatial without a file", "give Spatial_values_file_path");
+  if (part.face.lumen)
+    return context_.missing(time, "blood whose pressure is given node by node", "use one Value for the face");
+  if (part.held != nullptr)
+    return context_.missing(*part.held, "a face that is held along some axes beside a load given node by node",
+                            "use one Value for the face");
+  check_load(part);
+  auto& support = face(part).section("support", part.entry.find("Type")->where());
+  support.add("stiffness", with_unit(0.0, context_.units.stiffness_per_area), "a load alone");
+  auto& array = support.section("pressure", time.where()).section("array", "");
+  array.add("name", "Pressure", fmt::format("the name that {} reads", context_.peer()));
+  array.add("unit", context_.units.pressure, fmt::format("--units {}", context_.units.name));
+  array.add("file", context_.path(*file), file->where());
+  if (!problem_.coupled() && !context_.flag(part.entry, "Follower_pressure_load"))
+    context_.changed(part.entry, "the load follows the moved face, as with Follower_pressure_load true");
 }
 
 void Conditions::traction(const ConditionPart& part) {

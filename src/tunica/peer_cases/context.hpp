@@ -19,14 +19,18 @@ struct Context {
   const PeerFile& file;
   const UnitSystem& units;
   std::filesystem::path case_folder;
-  Leftover leftover;
+  Findings findings;
   std::vector<Problem> problems = {};
   Remarks remarks = {};
   std::vector<std::string> warnings = {};
   std::optional<NodalPrestress> prestress = {};
+  std::optional<InitialState> initial = {};
+  std::vector<EarlyTable> tables = {};
 
-  /// "svMultiPhysics" or "svFSI".
-  const char* peer() const { return file.dialect == Dialect::xml ? "svMultiPhysics" : "svFSI"; }
+  /// "svMultiPhysics", "svFSI" or "svSolver".
+  const char* peer() const {
+    return file.dialect == Dialect::xml ? "svMultiPhysics" : file.dialect == Dialect::inp ? "svFSI" : "svSolver";
+  }
 
   // Values of keys of a section; nothing where the key is not there, or does not read, which has been reported.
   std::optional<double> number(const Entry& section, std::string_view key) const;

@@ -27,7 +27,7 @@ struct Entry {
 };
 
 /// What numbers and truth values look like: those of the program that reads the file.
-enum class Dialect { xml, inp };
+enum class Dialect { xml, inp, svsolver };
 
 struct PeerFile {
   std::filesystem::path path;
@@ -35,7 +35,8 @@ struct PeerFile {
   Entry root;  ///< GeneralSimulationParameters, Add_mesh, Add_projection, Add_equation, ...
 };
 
-/// A solver.xml, an .inp file, or a folder that holds one of them. Files that it includes are read, too. Throws
+/// A solver.xml, an .inp file, the .svpre of an svSolver simulation, or a folder that holds one of them; of a
+/// SimVascular project (.svproj) also one that lies in a folder of it. Files that it includes are read, too. Throws
 /// InputError with file and line where the text is no file of the kind.
 PeerFile read_peer_file(const std::filesystem::path& path);
 

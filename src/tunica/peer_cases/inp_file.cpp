@@ -170,7 +170,7 @@ void gather_rcr(Entry& condition) {
   constexpr const char* names[] = {"Proximal_resistance", "Capacitance", "Distal_resistance"};
   std::string value = std::exchange(rcr->value, {});
   for (char& c : value)
-    if (c == '(' || c == ')' || c == ',' || c == '{' || c == '}') c = ' ';
+    if (std::string_view("(){},\"").find(c) != std::string_view::npos) c = ' ';
   std::size_t n = 0;
   for (std::size_t at = 0; (at = value.find_first_not_of(" \t", at)) != std::string::npos; ++n) {
     const auto end = std::min(value.find_first_of(" \t", at), value.size());

@@ -55,6 +55,8 @@ std::optional<PosedProblem> pose(Context& context);
 void translate_meshes(Context& context, const PosedProblem& problem, CaseKey& top);
 void translate_fluid(Context& context, const PosedProblem& problem, CaseKey& top);
 void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top);
+void translate_start(Context& context, const PosedProblem& problem, CaseKey& top);
+/// After translate_start(), which says what Windkessels start from.
 void translate_conditions(Context& context, const PosedProblem& problem, CaseKey& top);
 
 }  // namespace tunica::peer_cases

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tunica/base/text.hpp"
 #include "tunica/peer_cases/context.hpp"
 #include "tunica/peer_cases/problem.hpp"
 #include "tunica/peer_cases/values.hpp"
@@ -45,9 +46,27 @@ std::optional<double> steps_of(Context& context, const Entry& general) {
   return steps;
 }
 
+// The peers keep the faces of ten-node tetrahedra in .vtu files; the volumes are looked at where they are there.
+void translate_elements(Context& context, const PosedProblem& problem, CaseKey& top) {
+  const bool named = std::any_of(problem.faces.begin(), problem.faces.end(), [](const FacePart& part) {
+    const Entry* file = part.face->find("Face_file_path");
+    return file != nullptr && text::lower(std::filesystem::path(file->value).extension().string()) == ".vtu";
+  });
+  if (!named && !context.findings.quadratic) {
+    top.add("elements", "linear", "as the peer's");
+    return;
+  }
+  top.add("elements", "quadratic", "ten-node tetrahedra");
+  const Entry& mesh = problem.lumen != nullptr ? *problem.lumen : *problem.wall;
+  context.changed(mesh,
+                  "the edges of ten-node tetrahedra are straight; the nodes on them are made anew in their middles");
+  if (problem.solves_fluid())
+    context.changed(*problem.main, "pressure is linear in ten-node tetrahedra, as with Use_taylor_hood_type_basis");
+}
+
 void translate_analysis(Context& context, const PosedProblem& problem, const Entry& general, CaseKey& top) {
   const std::string source = problem.main->where() + " " + problem.main->label;
-  top.add("elements", "linear", "as the peer's");
+  translate_elements(context, problem, top);
   if (!massless(context, problem)) {
     top.add("analysis", problem.coupled() ? "fsi" : problem.solves_fluid() ? "flow" : "wall", source);
     return;
@@ -170,8 +189,8 @@ std::string with_head(const Context& context, const CaseKey& top) {
 }  // namespace
 
 Translation translate(PeerFile file, const UnitSystem& units, const std::filesystem::path& case_folder,
-                      const Leftover& leftover) {
-  Context context{.file = file, .units = units, .case_folder = case_folder, .leftover = leftover};
+                      const Findings& findings) {
+  Context context{.file = file, .units = units, .case_folder = case_folder, .findings = findings};
   const auto dropped = check_vocabulary(file, context.problems);
   list_dropped(context, dropped);
   const Entry& general = general_of(context);
@@ -187,13 +206,15 @@ Translation translate(PeerFile file, const UnitSystem& units, const std::filesys
     translate_fluid(context, *problem, top);
     translate_wall(context, *problem, top);
     translate_mesh_motion(context, *problem, top);
+    translate_start(context, *problem, top);
     translate_conditions(context, *problem, top);
     translate_time(context, *problem, general, top);
     translate_newton(context, *problem, top);
     translate_output(context, general, top);
   }
   if (!context.problems.empty()) throw InputError(std::move(context.problems));
-  return {with_head(context, top), context.remarks, context.warnings, context.prestress};
+  return {with_head(context, top), context.remarks, context.warnings,
+          context.prestress,       context.initial, context.tables};
 }
 
 }  // namespace tunica::peer_cases

@@ -26,22 +26,47 @@ struct NodalPrestress {
   std::string elements_file;  ///< in the folder of the case
 };
 
+/// What a look at the meshes has shown.
+struct Findings {
+  /// Has the boundary of a mesh parts that none of its faces holds? They get natural conditions.
+  bool lumen_rest = false, wall_rest = false;
+  bool quadratic = false;  ///< have the tetrahedra nodes on their edges?
+};
+
+/// Fields of a mesh at the start, in files with the points of that mesh.
+struct InitialFiles {
+  std::optional<std::filesystem::path> velocity, pressure, displacement;
+  bool any() const { return velocity || pressure || displacement; }
+};
+
+/// The state that a run starts from, in a file of tunica that is to be made of those of the peer.
+struct InitialState {
+  InitialFiles lumen, wall;
+  std::string file;             ///< in the folder of the case
+  bool outlets_follow = false;  ///< do Windkessels start from the flow and the pressure of that state?
+};
+
+/// A table of a load whose times are earlier than in the peer's file, in one that is to be made of it. The peers put
+/// the loads of t_{n+1} into the balance of t_{n+alpha_f}.
+struct EarlyTable {
+  std::filesystem::path from;
+  std::string file;  ///< in the folder of the case
+  double seconds;    ///< by which it is earlier
+};
+
 struct Translation {
   std::string yaml;  ///< with the remarks at its head and the place of every key behind it
   Remarks remarks;
   std::vector<std::string> warnings;  ///< files that are not there, values that look like slips
   std::optional<NodalPrestress> prestress = {};
-};
-
-/// Has the boundary of a mesh parts that none of its faces holds? They get natural conditions.
-struct Leftover {
-  bool lumen = false, wall = false;
+  std::optional<InitialState> initial = {};
+  std::vector<EarlyTable> tables = {};
 };
 
 /// The case file that poses the problem of `file`, for a file in `case_folder`: paths count from there. Files that it
 /// names need not be there; where they are, what hangs on them is looked up.
 /// Throws InputError with all that is wrong, unknown or beyond tunica, each with key and line.
 Translation translate(PeerFile file, const UnitSystem& units, const std::filesystem::path& case_folder,
-                      const Leftover& leftover = {});
+                      const Findings& findings = {});
 
 }  // namespace tunica::peer_cases

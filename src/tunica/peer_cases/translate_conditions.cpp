@@ -3,6 +3,7 @@
 
 #include "tunica/base/text.hpp"
 #include "tunica/peer_cases/conditions.hpp"
+#include "tunica/peer_cases/svsolver_files.hpp"
 #include "tunica/peer_cases/values.hpp"
 
 namespace tunica::peer_cases {
@@ -34,6 +35,7 @@ std::optional<Dependence> time_of(Context& context, const Entry& condition) {
   const std::string name = context.text(condition, "Time_dependence", "Steady");
   if (name == "Steady") return Dependence::steady;
   if (name == "Unsteady") return Dependence::unsteady;
+  if (name == "Spatial") return Dependence::spatial;
   if (name == "Resistance") return Dependence::resistance;
   if (name == "RCR" || name == "Windkessel") return Dependence::rcr;
   if (name == "Coupled") return Dependence::coupled;
@@ -41,11 +43,9 @@ std::optional<Dependence> time_of(Context& context, const Entry& condition) {
   if (name == "General")
     context.missing(entry, "values given node by node and instant by instant",
                     "use a Profile and Temporal_values_file_path");
-  else if (name == "Spatial")
-    context.missing(entry, "a load given node by node", "use one Value for the face");
   else
     context.refuse(entry, fmt::format("is `{}`, which {} does not have", text::printable(name), context.peer()),
-                   "write Steady, Unsteady, Resistance, RCR or Coupled");
+                   "write Steady, Unsteady, Spatial, Resistance, RCR or Coupled");
   return std::nullopt;
 }
 
@@ -59,6 +59,25 @@ std::string names_of(const std::vector<int>& axes) {
 
 // --- time courses -------------------------------------------------------------------------------------------------
 
+std::string Conditions::file_of(const ConditionPart& part, const Entry& file) {
+  const std::string path = context_.path(file);
+  if (context_.file.dialect == Dialect::xml && holds_fortran_exponents(context_.located(file)))
+    context_.refuse(file, "holds numbers such as 1.5D-4, of which svMultiPhysics reads 1.5", "write 1.5e-4");
+  const Entry* general = context_.file.root.find("GeneralSimulationParameters");
+  const double step = general == nullptr ? 0 : context_.number(*general, "Time_step_size").value_or(0);
+  if ((part.type != ConditionType::neumann && part.type != ConditionType::traction) || !(step > 0)) return path;
+  const double radius = context_.number(*general, "Spectral_radius_of_infinite_time_step")
+                            .value_or(context_.file.dialect == Dialect::xml ? 0.5 : 0.2);
+  const std::filesystem::path from = context_.located(file);
+  EarlyTable table{from, from.stem().string() + "_early" + from.extension().string(), radius / (1 + radius) * step};
+  context_.changed(file, fmt::format("the file {} has its times earlier by {:.6g} of a step: {} puts the loads of "
+                                     "t_n+1 into the balance of t_n+alpha_f",
+                                     table.file, radius / (1 + radius), context_.peer()));
+  std::string name = yaml_text(table.file);
+  context_.tables.push_back(std::move(table));
+  return name;
+}
+
 bool Conditions::table(const ConditionPart& part, const char* unit, CaseKey& to) {
   const Entry* values = part.entry.find("Temporal_values_file_path");
   const Entry* series = part.entry.find("Fourier_coefficients_file_path");
@@ -71,7 +90,7 @@ bool Conditions::table(const ConditionPart& part, const char* unit, CaseKey& to)
   const bool ramp = values != nullptr && context_.flag(part.entry, "Ramp_function");
   const std::string where = file->where();
   auto& table = to.section("table", where);
-  table.add("file", context_.path(*file), where);
+  table.add("file", file_of(part, *file), where);
   table.add("format", values != nullptr ? "simvascular" : "fourier", where);
   table.add("time_unit", "s", "");
   if (*unit != '\0') table.add("unit", unit, fmt::format("--units {}", context_.units.name));
@@ -80,7 +99,12 @@ bool Conditions::table(const ConditionPart& part, const char* unit, CaseKey& to)
   } else if (values != nullptr) {
     table.add("interpolation", "fourier",
               fmt::format("as {} reads tables, with the modes of the file", context_.peer()));
-    table.add("trend", "true", "the table need not close");
+    if (const Entry* period = part.entry.find(bct_period))
+      table.add("period", context_.quantity(*period, "s"), period->where());
+    if (const Entry* modes = part.entry.find(bct_modes))
+      table.add("modes", context_.quantity(*modes, ""), modes->where());
+    else
+      table.add("trend", "true", "the table need not close");
   }
   return true;
 }
@@ -172,11 +196,13 @@ void Conditions::translate(const Entry& condition) {
 }
 
 void Conditions::translate(const ConditionPart& part) {
-  const bool blood = part.face.lumen, outlets = part.time != Dependence::steady && part.time != Dependence::unsteady;
+  const bool blood = part.face.lumen;
+  const bool outlets = part.time == Dependence::resistance || part.time == Dependence::rcr;
   if (part.time == Dependence::coupled)
     return blood
                ? zerod_outlet(part)
                : context_.missing(part.entry, "a wall that is loaded by a zero-dimensional model", "give the pressure");
+  if (part.time == Dependence::spatial) return pressure_by_nodes(part);
   if (outlets && (!blood || part.type != ConditionType::neumann))
     return context_.refuse(*part.entry.find("Time_dependence"), "is for Neu conditions of the blood", "write Steady");
   if (outlets) return outlet(part);
@@ -228,7 +254,7 @@ void Conditions::translate() {
         }))
       natural(part);
   for (const bool lumen : {true, false})
-    if (lumen ? context_.leftover.lumen : context_.leftover.wall) {
+    if (lumen ? context_.findings.lumen_rest : context_.findings.wall_rest) {
       const std::string source = "boundary that no Add_face names: natural";
       if (lumen)
         boundary_.section(rest_face(lumen), source).add("pressure", with_unit(0.0, context_.units.pressure), "");

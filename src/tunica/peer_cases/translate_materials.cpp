@@ -398,9 +398,11 @@ void refuse_wall_viscosity(Context& context, const DomainPart& part) {
 
 void translate_density(Context& context, const PosedProblem& problem, const DomainPart& part, CaseKey& to) {
   const Entry* density = part.properties->find("Density");
-  if (density == nullptr)
-    return context.refuse(*part.properties, fmt::format("has no Density; {} would take 0.5", context.peer()),
-                          "write the density of the wall");
+  if (density == nullptr) {
+    to.add("density", "1000 kg/m^3", fmt::format("not written; {} would take 0.5", context.peer()));
+    return context.defaulted(*part.properties, "Density",
+                             fmt::format("1000 kg/m^3, about that of tissue; {} would take 0.5", context.peer()));
+  }
   // Without mass the wall is computed in equilibrium, in which the density has no meaning.
   if (context.number(*part.properties, "Density") != 0.0)
     to.add("density", context.quantity(*density, context.units.density), density->where());

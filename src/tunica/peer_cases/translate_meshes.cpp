@@ -19,14 +19,10 @@ void translate_faces(Context& context, const Entry& mesh, bool lumen, CaseKey& s
     const Entry* file = face->find("Face_file_path");
     if (file == nullptr)
       context.refuse(*face, "has no Face_file_path", "give the file of the face");
-    else if (ending(file->value) == ".vtu")
-      context.missing(
-          *file, "faces as .vtu files, which hold ten-node tetrahedra's faces of six nodes",
-          "give a mesh of linear tetrahedra with .vtp faces; `elements: quadratic` adds nodes to the edges");
     else
       faces.add(face->label, context.path(*file), file->where());
   }
-  if (lumen ? context.leftover.lumen : context.leftover.wall)
+  if (lumen ? context.findings.lumen_rest : context.findings.wall_rest)
     section.add("rest", rest_face(lumen), mesh.where() + ": boundary that no Add_face names");
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <string>
 
 #include "tunica/base/text.hpp"
 
@@ -33,7 +35,7 @@ ReadNumber read_number(std::string_view text, Dialect dialect) {
   if (has_fortran_exponent(text)) {
     other[other.find_first_of("dD")] = 'e';
     const auto value = plain_number(other);
-    if (value && dialect == Dialect::inp) return {*value};
+    if (value && dialect != Dialect::xml) return {*value};
     if (value)
       return {0.0, ValueError{fmt::format("`{}` is read as {} by svMultiPhysics, which stops in front of the D", text,
                                           text.substr(0, text.find_first_of("dD"))),
@@ -42,6 +44,13 @@ ReadNumber read_number(std::string_view text, Dialect dialect) {
   if (text.empty()) return {0.0, ValueError{"has no value", "write a number, or remove the key"}};
   return {0.0, ValueError{fmt::format("`{}` is no number", text::printable(text)),
                           "write one number with a decimal point and nothing behind it"}};
+}
+
+bool holds_fortran_exponents(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  for (std::string word; stream >> word;)
+    if (has_fortran_exponent(word)) return true;
+  return false;
 }
 
 ReadVector read_vector(std::string_view text, Dialect dialect) {
@@ -62,8 +71,8 @@ ReadVector read_vector(std::string_view text, Dialect dialect) {
 }
 
 ReadFlag read_flag(std::string_view text, Dialect dialect) {
-  const std::string word = dialect == Dialect::inp ? text::lower(text) : std::string(text);
-  const bool letter = dialect == Dialect::inp;
+  const bool letter = dialect != Dialect::xml;
+  const std::string word = letter ? text::lower(text) : std::string(text);
   if (word == "true" || word == "1" || (letter && word == "t")) return {true};
   if (word == "false" || word == "0" || (letter && word == "f")) return {false};
   return {false, ValueError{fmt::format("`{}` is neither true nor false", text::printable(text)),

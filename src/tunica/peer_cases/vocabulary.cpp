@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "tunica/peer_cases/svsolver_files.hpp"
+
 namespace tunica::peer_cases {
 
 namespace {
@@ -25,7 +27,8 @@ constexpr KeyRule refused_section(const char* key, const char* physics) {
 
 // --- general ------------------------------------------------------------------------------------------------------
 
-constexpr const char *logging = "tunica's log has one level", *initial_fields = "initial fields from a VTU file",
+constexpr const char *logging = "tunica's log has one level",
+                     *initial_fields = "initial fields of the whole in one file; those of each mesh are read",
                      *vtu_names = "results have tunica's names";
 
 constexpr auto general_keys = std::to_array<KeyRule>({
@@ -56,6 +59,7 @@ constexpr auto general_keys = std::to_array<KeyRule>({
     refused("Simulation_initialization_file_path", P, initial_fields),
     refused("Simulation_requires_remeshing", F, "remeshing during a run"),
     refused("Starting_time_step", I, "a run that goes on from svMultiPhysics' restart files"),
+    refused_section("Contact_model", "contact"),
 });
 constexpr SectionRule general_section{general_keys};
 
@@ -85,9 +89,9 @@ constexpr auto mesh_keys = std::to_array<KeyRule>({
     refused("Convert_elements_to_biquadratic_elements", F, "elements in two dimensions"),
     refused("Coordinates_file_path", P, "meshes as lists of coordinates; SimVascular's .vtu files are read"),
     refused("Gambit_mesh_file_path", P, "Gambit's meshes"),
-    refused("Initial_displacements_file_path", P, initial_fields),
-    refused("Initial_pressures_file_path", P, initial_fields),
-    refused("Initial_velocities_file_path", P, initial_fields),
+    used("Initial_displacements_file_path", P),
+    used("Initial_pressures_file_path", P),
+    used("Initial_velocities_file_path", P),
     refused("NURBS_data_file_path", P, "NURBS elements"),
     refused("Set_mesh_as_fibers", F, "one-dimensional fibre networks"),
     refused("Set_mesh_as_shell", F, "shells"),
@@ -136,12 +140,13 @@ constexpr const char *electrophysiology = "of electrophysiology", *body_force = 
       used("Continuity_stabilization_coefficient", N), used("Density", N), used("Dilational_penalty_model", T),        \
       used("Elasticity_modulus", N), used("Equation", T), used("Momentum_stabilization_coefficient", N),               \
       used("Penalty_parameter", N), used("Poisson_ratio", N), used("Viscosity", viscosity_section),                    \
-      dropped("Absolute_tolerance", N, electrophysiology), dropped("Anisotropic_conductivity", V, electrophysiology),  \
+      dropped("Absolute_tolerance", N, electrophysiology),                                                             \
+      KeyRule{"Anisotropic_conductivity", V, Use::dropped, electrophysiology, nullptr, true},                          \
       dropped("Feedback_parameter_for_stretch_activated_currents", N, electrophysiology),                              \
       dropped("Isotropic_conductivity", N, electrophysiology), dropped("Maximum_iterations", I, electrophysiology),    \
       dropped("Myocardial_zone", T, electrophysiology), dropped("ODE_solver", T, electrophysiology),                   \
       dropped("Relative_tolerance", N, electrophysiology), dropped("Time_step_for_integration", N, electrophysiology), \
-      refused("Conductivity", N, "heat or electric current"),                                                          \
+      KeyRule{"Conductivity", V, Use::refused, "heat or electric current", nullptr, true},                             \
       refused("Electrophysiology_model", T, "electrophysiology"),                                                      \
       refused("Fluid_density", N, "the coupled momentum method"), refused("Force_x", N, body_force),                   \
       refused("Force_y", N, body_force), refused("Force_z", N, body_force),                                            \
@@ -198,6 +203,8 @@ constexpr auto condition_keys = std::to_array<KeyRule>({
     used("Type", T),
     used("Value", V),
     used("Zero_out_perimeter", F),
+    used(bct_modes, I),
+    used(bct_period, N),
     dropped("Penalty_parameter", N, "belongs to Weakly_applied"),
     dropped("Penalty_parameter_normal", N, "belongs to Weakly_applied"),
     dropped("Penalty_parameter_tangential", N, "belongs to Weakly_applied"),
@@ -315,6 +322,8 @@ constexpr auto equation_keys = std::to_array<KeyRule>({
     used("LS", solver_section),
     used("Max_iterations", I),
     used("Output", output_section, true),
+    used("Initialize_RCR_from_flow", F),
+    used("Prestress", F),
     used("Tolerance", N),
     used("Use_taylor_hood_type_basis", F),
     used("svZeroDSolver_interface", zerod_section),
@@ -322,8 +331,6 @@ constexpr auto equation_keys = std::to_array<KeyRule>({
     dropped("Explicit_geometric_coupling", F, "the mesh follows the wall within the step"),
     dropped("Min_iterations", I, "a step ends when it has converged"),
     refused("Initialize", T, "the coupled momentum method"),
-    refused("Initialize_RCR_from_flow", F, "Windkessels that start from the flow at hand; give Initial_pressure"),
-    refused("Prestress", F, "svMultiPhysics' search for a prestress; add a section `prestress` instead"),
     refused_section("Couple_to_cplBC", "cplBC's zero-dimensional models"),
     refused_section("Couple_to_genBC", "genBC's zero-dimensional models"),
     refused_section("ECGLeads", "electrophysiology"),
@@ -334,7 +341,9 @@ constexpr auto equation_keys = std::to_array<KeyRule>({
 #undef TUNICA_DOMAIN_KEYS
 constexpr SectionRule equation_section{equation_keys};
 
-constexpr auto file_keys = std::to_array<KeyRule>({
+const auto file_keys = std::to_array<KeyRule>({
+    used(svpre_commands, svpre_section),
+    used(svsolver_settings, svsolver_section),
     used("GeneralSimulationParameters", general_section),
     used("Add_mesh", mesh_section, true),
     used("Add_projection", projection_section, true),

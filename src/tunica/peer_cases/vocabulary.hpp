@@ -36,6 +36,8 @@ struct KeyRule {
 };
 
 extern const SectionRule whole_file;
+/// Of svSolver, in files of their own.
+extern const SectionRule svpre_section, svsolver_section;
 
 /// A key that the case file does not take over as it is.
 struct Dropped {

@@ -80,6 +80,9 @@ TEST(ReadInp, GathersWindkessels) {
   EXPECT_EQ(inp("Add equation: fluid {Add BC: out {RCR values: (121.0, 1.5D-5, 1212.0)\nDistal pressure: 1.0}}"),
             "(GeneralSimulationParameters Add_equation[fluid](Add_BC[out](RCR_values(Proximal_resistance=121.0 "
             "Capacitance=1.5D-5 Distal_resistance=1212.0 Distal_pressure=1.0))))");
+  EXPECT_EQ(inp("Add equation: fluid {Add BC: out {RCR values: \"1, 2, 3\"}}"),
+            "(GeneralSimulationParameters Add_equation[fluid](Add_BC[out](RCR_values(Proximal_resistance=1 "
+            "Capacitance=2 Distal_resistance=3))))");
 }
 
 TEST(ReadInp, RefusesWhatIsNotClosed) {

@@ -135,7 +135,9 @@ TEST(Translate, DoesNotInheritUnusableDefaults) {
   const auto robin = translated(wall(elastic, "<Type>Robin</Type><Stiffness>1e4</Stiffness>"));
   EXPECT_TRUE(has(plain(robin), "stiffness: 1e4 dyn/cm^3\n      damping: 0 dyn s/cm^3"));
   EXPECT_TRUE(has(joined(robin.remarks.defaults), "Damping: 0; svMultiPhysics would take 1"));
-  EXPECT_TRUE(has(refused(wall("<Elasticity_modulus>1e6</Elasticity_modulus>", pressure)), "has no Density"));
+  const auto light = translated(wall("<Elasticity_modulus>1e6</Elasticity_modulus>", pressure));
+  EXPECT_TRUE(has(plain(light), "density: 1000 kg/m^3\n"));
+  EXPECT_TRUE(has(joined(light.remarks.defaults), "svMultiPhysics would take 0.5"));
   EXPECT_TRUE(has(refused(wall("<Density>1</Density>", pressure)), "has no Elasticity_modulus"));
   parts.equation = "<Density>1.06</Density>";
   EXPECT_TRUE(has(refused(flow(parts)), "has no Viscosity"));
@@ -156,7 +158,7 @@ TEST(Translate, ReadsTimeCourses) {
       "<Type>Neu</Type><Time_dependence>Unsteady</Time_dependence>"
       "<Temporal_values_file_path>p.dat</Temporal_values_file_path><Ramp_function>true</Ramp_function>";
   EXPECT_TRUE(has(plain(translated(flow(parts))),
-                  "pressure:\n      table:\n        file: p.dat\n        format: "
+                  "pressure:\n      table:\n        file: p_early.dat\n        format: "
                   "simvascular\n        time_unit: s\n        unit: dyn/cm^2\n        "
                   "interpolation: ramp\n"));
   parts.inlet =
@@ -290,19 +292,83 @@ TEST(Translate, WritesTheLawOfHolzapfelAndOgden) {
 
 TEST(Translate, WritesFacesThatAreMoved) {
   EXPECT_TRUE(has(plain(translated(wall(elastic,
-                                        "<Type>Dir</Type><Value>0.1</Value>"
+                                        "<Type>Dir</Type><Value>0.1</Value><Zero_out_perimeter>0</Zero_out_perimeter>"
                                         "<Effective_direction>(0, 1, 0)</Effective_direction>"))),
                   "X1:\n    displacement:\n      value: [0 cm, 0.1 cm, 0 cm]\n      directions: [y]\n"));
   const auto unsteady = plain(
       translated(wall(elastic,
                       "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence><Ramp_function>true</Ramp_function>"
+                      "<Zero_out_perimeter>false</Zero_out_perimeter>"
                       "<Temporal_values_file_path>load.dat</Temporal_values_file_path>")));
   EXPECT_TRUE(has(unsteady, "value: [1 cm, 1 cm, 1 cm]\n      waveform:\n        table:\n          file: load.dat\n"));
   EXPECT_TRUE(has(unsteady, "interpolation: ramp"));
   const char* by_key =
-      "<Type>Dir</Type><Value>0.1</Value>"
+      "<Type>Dir</Type><Value>0.1</Value><Zero_out_perimeter>false</Zero_out_perimeter>"
       "<Impose_on_state_variable_integral>true</Impose_on_state_variable_integral>";
   EXPECT_TRUE(has(plain(translated(wall(elastic, by_key, "ustruct"))), "value: [0.1 cm, 0.1 cm, 0.1 cm]\n"));
+  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Dir</Type><Value>0.1</Value>")), "while its rim stays"));
+}
+
+TEST(Translate, LetsLoadsActAsThePeerDoes) {
+  const auto translation =
+      translated(wall(elastic,
+                      "<Type>Neu</Type><Time_dependence>Unsteady</Time_dependence><Ramp_function>true</Ramp_function>"
+                      "<Temporal_values_file_path>load.dat</Temporal_values_file_path>"));
+  EXPECT_TRUE(has(plain(translation), "file: load_early.dat\n"));
+  ASSERT_EQ(translation.tables.size(), 1u);
+  EXPECT_EQ(translation.tables[0].from, "case/load.dat");
+  EXPECT_DOUBLE_EQ(translation.tables[0].seconds, 0.1 / 3);
+}
+
+TEST(Translate, WritesALoadByNodesAsSurroundingsWithoutStiffness) {
+  const std::string load =
+      "<Type>Neu</Type><Time_dependence>Spatial</Time_dependence>"
+      "<Spatial_values_file_path>p.vtp</Spatial_values_file_path>";
+  const auto translation = translated(wall(elastic, load));
+  EXPECT_TRUE(has(plain(translation),
+                  "X1:\n    support:\n      stiffness: 0 dyn/cm^3\n      pressure:\n        array:\n"
+                  "          name: Pressure\n          unit: dyn/cm^2\n          file: p.vtp\n"));
+  EXPECT_TRUE(has(joined(translation.remarks.changed), "the load follows the moved face"));
+  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Neu</Type><Time_dependence>Spatial</Time_dependence>")),
+                  "is Spatial without a file"));
+}
+
+TEST(Translate, AsksForAPrestressWhereThePeerSearchesForOne) {
+  const auto text = plain(translated(wall(std::string(elastic) + "<Prestress>true</Prestress>", pressure)));
+  EXPECT_TRUE(has(text, "prestress:\n  method: stress\n  update: second_piola\n"));
+  EXPECT_TRUE(has(refused(wall(std::string(elastic) + "<Prestress>true</Prestress>", pressure, "struct",
+                               "<Prestress_file_path>s.vtu</Prestress_file_path>")),
+                  "beside the one of Prestress_file_path"));
+}
+
+TEST(Translate, StartsFromInitialFields) {
+  FlowParts parts;
+  parts.mesh =
+      "<Initial_velocities_file_path>i/v.vtu</Initial_velocities_file_path>"
+      "<Initial_pressures_file_path>i/p.vtu</Initial_pressures_file_path>";
+  parts.equation += "<Initialize_RCR_from_flow>true</Initialize_RCR_from_flow>";
+  parts.outlet =
+      "<Type>Neu</Type><Time_dependence>RCR</Time_dependence><RCR_values><Capacitance>1e-5</Capacitance>"
+      "<Proximal_resistance>121</Proximal_resistance><Distal_resistance>1212</Distal_resistance></RCR_values>";
+  const auto translation = translated(flow(parts));
+  EXPECT_TRUE(has(plain(translation), "start: solver_start.checkpoint\n"));
+  EXPECT_EQ(plain(translation).find("initial_pressure"), std::string::npos);
+  ASSERT_TRUE(translation.initial);
+  EXPECT_EQ(translation.initial->lumen.velocity, "case/i/v.vtu");
+  EXPECT_TRUE(translation.initial->outlets_follow);
+  parts.mesh = "";
+  EXPECT_TRUE(has(plain(translated(flow(parts))), "initial_pressure: 0 dyn/cm^2\n"));
+  parts.mesh = "<Initial_displacements_file_path>u.vtu</Initial_displacements_file_path>";
+  EXPECT_TRUE(has(refused(flow(parts)), "displaced wall beside blood"));
+}
+
+TEST(Translate, TakesTenNodeTetrahedraForQuadraticElements) {
+  auto xml = flow({});
+  xml.replace(xml.find("m/in.vtp"), 8, "m/in.vtu");
+  EXPECT_TRUE(has(plain(translated(xml)), "elements: quadratic\n"));
+  const auto looked_at =
+      translate(read_xml(flow({}), "case/solver.xml"), unit_system("cgs"), "case", {.quadratic = true});
+  EXPECT_TRUE(has(plain(looked_at), "elements: quadratic\n"));
 }
 
 TEST(Translate, NamesTheFileOfElementsThatIsMadeOfANodalPrestress) {
@@ -343,7 +409,7 @@ TEST(Translate, NamesThePhysicsThatIsMissing) {
   EXPECT_TRUE(has(with_law("LS"), "Lee and Sacks"));
   EXPECT_TRUE(has(with_law("CANN"), "neural network"));
   EXPECT_TRUE(has(with_law("nkH"), "`nkH`"));
-  const char* moved = "<Type>Dir</Type><Value>0.1</Value>";
+  const char* moved = "<Type>Dir</Type><Value>0.1</Value><Zero_out_perimeter>false</Zero_out_perimeter>";
   EXPECT_TRUE(has(refused(wall(elastic, moved, "ustruct")), "a face of the wall whose velocity is given"));
   EXPECT_TRUE(has(refused(wall(elastic, std::string(moved) + "<Profile>Parabolic</Profile>")),
                   "a displacement with a profile over the face"));
@@ -375,7 +441,7 @@ TEST(Translate, RefusesTraps) {
 
 TEST(Translate, GivesTheRestOfTheBoundaryNaturalConditions) {
   const auto translation =
-      translate(read_xml(flow({}), "case/solver.xml"), unit_system("cgs"), "case", {.lumen = true, .wall = false});
+      translate(read_xml(flow({}), "case/solver.xml"), unit_system("cgs"), "case", {.lumen_rest = true});
   EXPECT_TRUE(has(plain(translation), "rest: lumen_rest\n"));
   EXPECT_TRUE(has(plain(translation), "lumen_rest:\n    pressure: 0 dyn/cm^2\n"));
 }

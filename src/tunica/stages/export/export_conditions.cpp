@@ -118,6 +118,7 @@ class FaceExport {
     course(entry, c.course, bc::make_waveform(c.course), size / factor(e_.units.length, dimension::length));
     add_key(entry, "Effective_direction", directions(c.directions));
     add_key(entry, "Impose_on_state_variable_integral", "true");
+    add_key(entry, "Zero_out_perimeter", "false");  // else the rim of the face would stay
   }
   void operator()(const bc::Support& c) {
     for (const auto* value : {&c.stiffness, &c.damping, &c.pressure})

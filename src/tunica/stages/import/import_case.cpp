@@ -8,7 +8,10 @@
 #include "tunica/case/case.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/mesh_io/quadratic_cells.hpp"
 #include "tunica/peer_cases/translate.hpp"
+#include "tunica/stages/import/early_table.hpp"
+#include "tunica/stages/import/initial_state.hpp"
 #include "tunica/stages/import/nodal_prestress.hpp"
 
 namespace tunica::stages {
@@ -27,8 +30,8 @@ bool all_there(const case_file::NamedFiles& files) {
 /// Is the mesh of the wall there?
 bool all_there(const case_file::MeshSettings& meshes) { return meshes.wall && all_there(meshes.wall->files); }
 
-/// Boundary that no face holds; none where the meshes are not there.
-peer_cases::Leftover leftover(case_file::Case c, std::vector<std::string>& warnings) {
+/// What the meshes show, as far as they are there: boundary that no face holds, tetrahedra of ten nodes.
+peer_cases::Findings look_at_meshes(case_file::Case c, std::vector<std::string>& warnings) {
   const auto look = [&](auto& mesh, const char* rest) {
     if (!mesh || !all_there(mesh->files)) return false;
     mesh->files.rest = rest;
@@ -44,10 +47,13 @@ peer_cases::Leftover leftover(case_file::Case c, std::vector<std::string>& warni
   if (!looked[0] && !looked[1]) return {};
   const auto mesh = artifacts::load_meshes(c.meshes, {});
   warnings.insert(warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
-  peer_cases::Leftover found;
+  peer_cases::Findings found;
+  for (const auto* files :
+       {c.meshes.lumen ? &c.meshes.lumen->files : nullptr, c.meshes.wall ? &c.meshes.wall->files : nullptr})
+    found.quadratic |= files != nullptr && mesh_io::holds_ten_node_tetrahedra(files->volume);
   for (const auto& face : mesh.data.faces) {
-    found.lumen |= face.name == lumen;
-    found.wall |= face.name == wall;
+    found.lumen_rest |= face.name == lumen;
+    found.wall_rest |= face.name == wall;
   }
   return found;
 }
@@ -65,6 +71,24 @@ config::Parsed<case_file::Case> read(const std::string& yaml, const fs::path& fi
   }
 }
 
+/// Files of fields that the case names, of those of the peer; not where these or the meshes are missing, which has been
+/// warned of.
+void write_files(const peer_cases::Translation& translation, const case_file::Case& c,
+                 const peer_cases::UnitSystem& units, const fs::path& folder) {
+  std::error_code none;
+  for (const auto& table : translation.tables)
+    if (fs::is_regular_file(table.from, none)) write_early_table(table.from, table.seconds, folder / table.file);
+  if (const auto& nodal = translation.prestress; nodal && fs::is_regular_file(nodal->file, none) && all_there(c.meshes))
+    write_element_prestress(nodal->file, config::unit_factor(units.pressure, config::dimension::pressure), c.meshes,
+                            folder / nodal->elements_file);
+  if (!translation.initial) return;
+  bool all = (!c.meshes.lumen || all_there(c.meshes.lumen->files)) && (!c.meshes.wall || all_there(c.meshes));
+  for (const auto* files : {&translation.initial->lumen, &translation.initial->wall})
+    for (const auto* file : {&files->velocity, &files->pressure, &files->displacement})
+      all = all && (!*file || fs::is_regular_file(**file, none));
+  if (all) write_initial_state(*translation.initial, c, units, folder / translation.initial->file);
+}
+
 }  // namespace
 
 ImportOutcome import_case(const ImportRequest& request) {
@@ -75,9 +99,11 @@ ImportOutcome import_case(const ImportRequest& request) {
   ImportOutcome outcome{.dropped = {}, .changed = {}, .defaults = {}, .warnings = translation.warnings};
   auto posed = read(translation.yaml, request.case_file);
   for (const Problem& warning : posed.warnings) outcome.warnings.push_back(format(warning));
-  const case_file::MeshSettings meshes = posed.value.meshes;
-  const auto rest = leftover(std::move(posed.value), outcome.warnings);
-  if (rest.lumen || rest.wall) translation = peer_cases::translate(file, units, folder, rest);
+  const auto found = look_at_meshes(posed.value, outcome.warnings);
+  if (found.lumen_rest || found.wall_rest || found.quadratic) {
+    translation = peer_cases::translate(file, units, folder, found);
+    posed = read(translation.yaml, request.case_file);
+  }
   outcome.dropped = translation.remarks.dropped;
   outcome.changed = translation.remarks.changed;
   outcome.defaults = translation.remarks.defaults;
@@ -88,10 +114,7 @@ ImportOutcome import_case(const ImportRequest& request) {
       throw InputError(request.case_file.string(), "is there already, with other contents",
                        "choose another name by -o, or replace it with --overwrite");
   }
-  std::error_code not_there;
-  if (const auto& nodal = translation.prestress; nodal && fs::exists(nodal->file, not_there) && all_there(meshes))
-    write_element_prestress(nodal->file, config::unit_factor(units.pressure, config::dimension::pressure), meshes,
-                            folder / nodal->elements_file);
+  write_files(translation, posed.value, units, folder);
   if (!outcome.unchanged) files::write_atomically(request.case_file, translation.yaml);
   return outcome;
 }

@@ -1,0 +1,163 @@
+#include "tunica/stages/export/export_results.hpp"
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <cmath>
+
+#include "tunica/analysis/field_series.hpp"
+#include "tunica/artifacts/histories.hpp"
+#include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/case/case.hpp"
+#include "tunica/config/units.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
+#include "tunica/mesh_io/vtk_writer.hpp"
+#include "tunica/peer_cases/unit_system.hpp"
+
+namespace tunica::stages {
+
+namespace fs = std::filesystem;
+using peer_cases::UnitSystem;
+
+namespace {
+
+struct Units {
+  double length, velocity, pressure, flow;  ///< SI values
+  explicit Units(const UnitSystem& units)
+      : length(units.metres),
+        velocity(config::unit_factor(units.velocity, config::dimension::velocity)),
+        pressure(config::unit_factor(units.pressure, config::dimension::pressure)),
+        flow(config::unit_factor(units.flow, config::dimension::volume_flow)) {}
+};
+
+vtkNew<vtkUnstructuredGrid> shape_of(const mesh::MeshData& data, double length) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& x : data.points) points->InsertNextPoint(x[0] / length, x[1] / length, x[2] / length);
+  grid->SetPoints(points);
+  const bool quadratic = !data.edges.empty();
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t e = 0; e < data.tetrahedra.size(); ++e) {
+    cells->InsertNextCell(quadratic ? 10 : 4);
+    for (const auto node : data.tetrahedra[e]) cells->InsertCellPoint(node);
+    if (quadratic)
+      for (const auto node : data.edges[e]) cells->InsertCellPoint(node);
+  }
+  grid->SetCells(quadratic ? VTK_QUADRATIC_TETRA : VTK_TETRA, cells);
+  return grid;
+}
+
+/// A field of nodes; nothing where the run has none of the kind.
+void set_array(vtkUnstructuredGrid* grid, const char* name, const std::vector<double>& values, double unit) {
+  const auto nodes = grid->GetNumberOfPoints();
+  if (values.empty() || nodes == 0) return;
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(values.size() / static_cast<std::size_t>(nodes)));
+  array->SetNumberOfTuples(nodes);
+  for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), values[i] / unit);
+  grid->GetPointData()->AddArray(array);
+}
+
+/// Number of the step that ends at each of the times; statics count their load steps.
+std::vector<std::int64_t> steps_of(const case_file::Case& c, const std::vector<double>& times) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t f = 0; f < times.size(); ++f)
+    steps.push_back(c.time ? std::llround(times[f] / c.time->step) : static_cast<std::int64_t>(f));
+  return steps;
+}
+
+std::vector<std::string> write_fields(const case_file::Case& c, const mesh::MeshData& data, const Units& units,
+                                      const fs::path& folder) {
+  analysis::FieldSeries series(case_file::describe(c), data, c.output.directory);
+  const auto steps = steps_of(c, series.times());
+  const auto grid = shape_of(data, units.length);
+  std::vector<std::string> files;
+  for (std::size_t f = 0; f < steps.size(); ++f) {
+    if (steps[f] == 0) continue;  // the start, which svMultiPhysics does not write
+    const auto frame = series.read(f);
+    set_array(grid, "Velocity", frame.velocity, units.velocity);
+    set_array(grid, "Pressure", frame.pressure, units.pressure);
+    set_array(grid, "Displacement", frame.displacement, units.length);
+    set_array(grid, "WSS", frame.wall_shear, units.pressure);
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetInputData(grid);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    files.push_back(fmt::format("result_{:03}.vtu", steps[f]));
+    mesh_io::write_vtk(*writer, folder / files.back());
+  }
+  return files;
+}
+
+/// A file of one quantity on all faces of the lumen.
+struct BoundaryFile {
+  const char *name, *column;
+  const config::Dimension& dimension;
+  double unit;
+};
+
+std::string text_of(const BoundaryFile& file, const files::CsvColumns& history, const std::vector<std::string>& faces,
+                    const std::vector<double>& times, const Units& units) {
+  std::string text =
+      "# Boundary integrals of tunica in the form of svMultiPhysics: face areas, then step, time, values of the faces\n"
+      "face areas: ";
+  std::vector<std::vector<double>> columns;
+  for (const auto& face : faces) {
+    const auto areas = artifacts::si_column(history, face + " area", config::dimension::area);
+    text += fmt::format(" {:4.3e} ", areas.empty() ? 0.0 : areas.front() / (units.length * units.length));
+    columns.push_back(artifacts::si_column(history, fmt::format("{} {}", face, file.column), file.dimension));
+  }
+  text += "\nstep   time  ";
+  for (const auto& face : faces) text += fmt::format(" {} ", face);
+  text += "\n";
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    text += fmt::format(" {}   {:.10e} ", history.columns[0][row], times[row]);
+    for (const auto& column : columns) text += fmt::format(" {:.10e} ", column[row] / file.unit);
+    text += "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> write_histories(const case_file::Case& c, const mesh::MeshData& data, const Units& units,
+                                         const fs::path& folder) {
+  if (!c.solves_fluid()) return {};
+  std::vector<std::string> faces;
+  for (const auto& face : data.faces)
+    if (data.regions[static_cast<std::size_t>(face.region)].kind == mesh::RegionKind::lumen) faces.push_back(face.name);
+  const auto history = files::read_csv(c.output.directory / "faces.csv", artifacts::history_remedy);
+  const auto times = artifacts::si_column(history, "time", config::dimension::time);
+  const BoundaryFile kinds[] = {{"Velocity_flux.txt", "flow", config::dimension::volume_flow, units.flow},
+                                {"Pressure_average.txt", "pressure", config::dimension::pressure, units.pressure}};
+  std::vector<std::string> files;
+  for (const auto& kind : kinds) {
+    files.push_back(fmt::format("B_{}_{}", c.solves_wall() ? "FS" : "NS", kind.name));
+    files::write_atomically(folder / files.back(), text_of(kind, history, faces, times, units));
+  }
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::string> export_results(const ResultsRequest& request) {
+  const Units units(peer_cases::unit_system(request.units));
+  const auto c = case_file::read_case(request.case_file).value;
+  auto mesh = artifacts::load_mesh(c);
+  if (c.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(mesh.data);
+  fs::create_directories(request.folder);
+  auto files = write_fields(c, mesh.data, units, request.folder);
+  for (auto& file : write_histories(c, mesh.data, units, request.folder)) files.push_back(std::move(file));
+  return files;
+}
+
+}  // namespace tunica::stages
