@@ -71,13 +71,27 @@ config::Parsed<case_file::Case> read(const std::string& yaml, const fs::path& fi
   }
 }
 
+/// The tables of loads; one that does not read is none, and can be put in its place later, as one that is missing.
+void write_tables(const peer_cases::Translation& translation, const fs::path& folder,
+                  std::vector<std::string>& warnings) {
+  std::error_code none;
+  for (const auto& table : translation.tables) {
+    if (!fs::is_regular_file(table.from, none)) continue;
+    try {
+      write_early_table(table.from, table.seconds, folder / table.file);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) warnings.push_back(format(problem));
+      warnings.push_back(
+          fmt::format("{} is not written: import again when {} is a table", table.file, table.from.string()));
+    }
+  }
+}
+
 /// Files of fields that the case names, of those of the peer; not where these or the meshes are missing, which has been
 /// warned of.
 void write_files(const peer_cases::Translation& translation, const case_file::Case& c,
                  const peer_cases::UnitSystem& units, const fs::path& folder) {
   std::error_code none;
-  for (const auto& table : translation.tables)
-    if (fs::is_regular_file(table.from, none)) write_early_table(table.from, table.seconds, folder / table.file);
   if (const auto& nodal = translation.prestress; nodal && fs::is_regular_file(nodal->file, none) && all_there(c.meshes))
     write_element_prestress(nodal->file, config::unit_factor(units.pressure, config::dimension::pressure), c.meshes,
                             folder / nodal->elements_file);
@@ -114,6 +128,7 @@ ImportOutcome import_case(const ImportRequest& request) {
       throw InputError(request.case_file.string(), "is there already, with other contents",
                        "choose another name by -o, or replace it with --overwrite");
   }
+  write_tables(translation, folder, outcome.warnings);
   write_files(translation, posed.value, units, folder);
   if (!outcome.unchanged) files::write_atomically(request.case_file, translation.yaml);
   return outcome;
