@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <span>
 
 #include "tunica/geometry/remesh.hpp"
@@ -27,9 +25,14 @@ constexpr double largest_turn = 0.5, same_side = 0.2, away = 0.3;
 class Remesher {
  public:
   Remesher(const Remeshed& start, const Original& original, const RemeshOptions& options)
-      : original_(original.tree), sizes_(original.sizes), options_(options), lines_(lines(original)) {
+      : original_(original.tree),
+        sizes_(original.sizes),
+        options_(options),
+        rims_(rims(original)),
+        creases_(tree_of(original, original.creases)) {
     load(start);
     for (const auto v : mesh_.vertices()) settle(v);
+    open_ears();
   }
 
   Remeshed run() {
@@ -42,19 +45,26 @@ class Remesher {
     }
     collapse_tiny_edges();
     flip_edges(false);
+    open_ears();
     for (int i = 0; i < 2; ++i) fit();
     return result();
   }
 
  private:
-  /// Open edges and creases of the original, as triangles with two equal corners.
-  static TriangleTree lines(const Original& original) {
+  /// What a point lies on and may move along.
+  enum class Line { none, crease, rim };
+
+  /// Lines of the original as triangles with two equal corners.
+  static TriangleTree tree_of(const Original& original, const std::vector<Segment>& lines) {
     TriangleSurface flat{original.tree.surface().points, {}};
-    for (const auto& loop : boundary_loops(original.tree.surface()))
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        flat.triangles.push_back({loop[i], loop[(i + 1) % loop.size()], loop[(i + 1) % loop.size()]});
-    for (const auto& [a, b] : original.creases) flat.triangles.push_back({a, b, b});
+    for (const auto& [a, b] : lines) flat.triangles.push_back({a, b, b});
     return TriangleTree(std::move(flat));
+  }
+  static TriangleTree rims(const Original& original) {
+    std::vector<Segment> lines;
+    for (const auto& loop : boundary_loops(original.tree.surface()))
+      for (std::size_t i = 0; i < loop.size(); ++i) lines.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    return tree_of(original, lines);
   }
 
   void load(const Remeshed& start) {
@@ -112,21 +122,27 @@ class Remesher {
   double wanted(Edge e) const { return std::min(size_[mesh_.vertex(e, 0)], size_[mesh_.vertex(e, 1)]); }
 
   /// Nearest place of the original closer than `within`: on a line, or on the side of the surface that faces along `n`.
-  SurfacePoint project(const Point& x, const Vec3<double>& n, bool on_line, double within) const {
-    if (on_line) return lines_.nearest(x, within);
+  /// Rims stay plane where a crease ends at them.
+  SurfacePoint project(const Point& x, const Vec3<double>& n, Line line, double within) const {
+    if (line != Line::none) return tree(line).nearest(x, within);
     return original_.nearest_if(
         x, within, [&](const SurfacePoint& q) { return dot(original_.normal(q.triangle), n) > same_side; });
   }
   /// Looks up what belongs to the place of a point.
   void settle(Vertex v) {
     constexpr double anywhere = std::numeric_limits<double>::infinity();
-    auto at = project(mesh_.point(v), normal(v), false, anywhere);
+    auto at = project(mesh_.point(v), normal(v), Line::none, anywhere);
     if (!at) at = original_.nearest(mesh_.point(v));
     size_[v] = original_.interpolate(sizes_, at);
     outward_[v] = original_.smooth_normal(at);
   }
 
-  bool on_line(Edge e) const { return crease_[e] || mesh_.is_border(e); }
+  Line line_of(Edge e) const { return mesh_.is_border(e) ? Line::rim : crease_[e] ? Line::crease : Line::none; }
+  Line line_of(Vertex v) const { return mesh_.is_border(v) ? Line::rim : lines_at(v) > 0 ? Line::crease : Line::none; }
+  const TriangleTree& tree(Line line) const {
+    return line == Line::none ? original_ : line == Line::rim ? rims_ : creases_;
+  }
+  bool on_line(Edge e) const { return line_of(e) != Line::none; }
   /// Number of line edges at a point: 0 inside the surface, 2 along a line, others at its ends and crossings.
   int lines_at(Vertex v) const {
     int count = 0;
@@ -150,7 +166,8 @@ class Remesher {
   }
 
   void split(Edge e) {
-    const bool line = on_line(e), crease = crease_[e];
+    const auto line = line_of(e);
+    const bool crease = crease_[e];
     const auto a = mesh_.vertex(e, 0), b = mesh_.vertex(e, 1);
     const Point middle = 0.5 * (mesh_.point(a) + mesh_.point(b));
     const auto n = unit(normal(a) + normal(b));
@@ -190,22 +207,24 @@ class Remesher {
   void collapse(Edge e) {
     const auto a = mesh_.vertex(e, 0), b = mesh_.vertex(e, 1);
     const int rank_a = rank(a), rank_b = rank(b);
-    const bool line = on_line(e);
+    const auto line = line_of(e);
     const bool is_tiny = length(e) < tiny * wanted(e), borders = mesh_.is_border(a) && mesh_.is_border(b);
-    if (rank_a > 0 && rank_b > 0 && !line && (borders || !is_tiny)) return;
+    if (rank_a > 0 && rank_b > 0 && line == Line::none && (borders || !is_tiny)) return;
     if (rank_a == 2 && rank_b == 2 && !is_tiny) return;
-    if (!CGAL::Euler::does_satisfy_link_condition(e, mesh_)) return;
-    Point place;
-    if (rank_a != rank_b || rank_a == 2) {
-      place = mesh_.point(rank_a > rank_b ? a : b);
-    } else {
+    if (!CGAL::Euler::does_satisfy_link_condition(e, mesh_) || leaves_ear(e)) return;
+    const bool rim_a = mesh_.is_border(a), rim_b = mesh_.is_border(b);
+    // A point of a rim stays in its plane, whatever it merges with.
+    const auto stays = rim_a != rim_b ? (rim_a ? a : b) : rank_a > rank_b ? a : b;
+    const bool alike = rim_a == rim_b && rank_a == rank_b;
+    Point place = mesh_.point(stays);
+    if (alike && rank_a < 2) {
       const auto at = project(0.5 * (mesh_.point(a) + mesh_.point(b)), unit(normal(a) + normal(b)), line, wanted(e));
       if (!at) return;
       place = at.place;
     }
     if (!may_merge(a, b, place) || !may_merge(b, a, place)) return;
-    const double size = rank_a != rank_b ? size_[rank_a > rank_b ? a : b] : std::min(size_[a], size_[b]);
-    const auto outward = rank_a == rank_b ? unit(outward_[a] + outward_[b]) : outward_[rank_a > rank_b ? a : b];
+    const double size = alike ? std::min(size_[a], size_[b]) : size_[stays];
+    const auto outward = alike ? unit(outward_[a] + outward_[b]) : outward_[stays];
     const auto creased = crease_neighbours(a, b);
     const auto kept = CGAL::Euler::collapse_edge(e, mesh_);
     mesh_.point(kept) = place;
@@ -270,7 +289,47 @@ class Remesher {
     }
   }
 
+  /// Whether one triangle is all that a point of a rim would have: with its corners on the rim alone it lies in the
+  /// plane of the opening.
+  bool is_ear(Vertex v, int lost) const { return mesh_.is_border(v) && static_cast<int>(mesh_.degree(v)) - lost < 3; }
+
+  bool leaves_ear(Edge e) const {
+    for (const auto h : {mesh_.halfedge(e, 0), mesh_.halfedge(e, 1)})
+      if (!mesh_.is_border(h) && is_ear(mesh_.target(mesh_.next(h)), 1)) return true;
+    return false;
+  }
+
+  /// Joins the tip of an ear with the point behind it, or takes it away where it is flat.
+  void open_ears() {
+    if (options_.keep_boundary) return;
+    std::vector<Vertex> tips;
+    for (const auto v : mesh_.vertices())
+      if (!mesh_.is_isolated(v) && is_ear(v, 0)) tips.push_back(v);
+    for (const auto v : tips) {
+      if (mesh_.is_removed(v) || !is_ear(v, 0)) continue;
+      auto h = mesh_.halfedge(v);
+      if (mesh_.is_border(h)) h = mesh_.opposite(mesh_.next(h));
+      const auto base = mesh_.prev(h);  // the edge across from the tip
+      const auto a = mesh_.source(base), b = mesh_.target(base);
+      if (mesh_.is_border(mesh_.edge(base))) continue;  // a triangle of its own
+      const auto behind = mesh_.target(mesh_.next(mesh_.opposite(base)));
+      const auto n = unit(outward_[a] + outward_[b]);
+      const auto faces = [&](Vertex p, Vertex q, Vertex r) {
+        return dot(unit(area_of(mesh_.point(p), mesh_.point(q), mesh_.point(r))), n) > away;
+      };
+      if (mesh_.halfedge(v, behind) == Mesh::null_halfedge() && !is_ear(a, 1) && !is_ear(b, 1) && faces(v, a, behind) &&
+          faces(behind, b, v)) {
+        crease_[mesh_.edge(base)] = false;
+        CGAL::Euler::flip_edge(base, mesh_);
+      } else if (const auto e = mesh_.edge(h); CGAL::Euler::does_satisfy_link_condition(e, mesh_)) {
+        const auto place = mesh_.point(mesh_.source(h));
+        mesh_.point(CGAL::Euler::collapse_edge(e, mesh_)) = place;
+      }
+    }
+  }
+
   bool worth_flipping(Vertex a, Vertex b, Vertex c, Vertex d, bool by_valence) const {
+    if (is_ear(a, 1) || is_ear(b, 1)) return false;
     const auto &pa = mesh_.point(a), &pb = mesh_.point(b), &pc = mesh_.point(c), &pd = mesh_.point(d);
     const double before = std::min(angle(pa, pb, pc), angle(pb, pa, pd));
     const double after = std::min(angle(pc, pd, pb), angle(pd, pc, pa));
@@ -307,13 +366,13 @@ class Remesher {
       if (frozen(v)) continue;
       const int count = lines_at(v);
       if (is_corner(count)) continue;
-      const bool line = count > 0;
+      const auto line = line_of(v);
       const auto n = normal(v);
       Point goal{{0, 0, 0}};
       double weights = 0;
       for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
-        if (line) {
-          if (!on_line(mesh_.edge(h))) continue;
+        if (line != Line::none) {
+          if (line_of(mesh_.edge(h)) != line) continue;
           goal = goal + mesh_.point(mesh_.source(h));
           weights += 1;
         } else {
@@ -326,19 +385,19 @@ class Remesher {
       }
       if (!(weights > 0)) continue;
       auto step = (1 / weights) * goal - mesh_.point(v);
-      if (!line) step = step - dot(step, n) * n;
+      if (line == Line::none) step = step - dot(step, n) * n;
       move(v, mesh_.point(v) + 0.7 * step, n, line);
     }
   }
 
   /// Moves a point to the place of the original next to `x`, unless a triangle would turn over.
-  void move(Vertex v, const Point& x, const Vec3<double>& n, bool line) {
+  void move(Vertex v, const Point& x, const Vec3<double>& n, Line line) {
     const auto at = project(x, n, line, size_[v]);
     if (!at || !may_move(v, at.place)) return;
     mesh_.point(v) = at.place;
-    size_[v] = (line ? lines_ : original_).interpolate(sizes_, at);
+    size_[v] = tree(line).interpolate(sizes_, at);
     // On a line the triangle has two equal corners, so that the normal of the surface has to be looked up.
-    outward_[v] = original_.smooth_normal(line ? original_.nearest(at.place) : at);
+    outward_[v] = original_.smooth_normal(line == Line::none ? at : original_.nearest(at.place));
   }
   bool may_move(Vertex v, const Point& place) const {
     for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
@@ -353,7 +412,7 @@ class Remesher {
   Vec3<double> deviation(Edge e) const {
     const auto a = mesh_.vertex(e, 0), b = mesh_.vertex(e, 1);
     const Point middle = 0.5 * (mesh_.point(a) + mesh_.point(b));
-    const auto at = project(middle, unit(normal(a) + normal(b)), on_line(e), wanted(e));
+    const auto at = project(middle, unit(normal(a) + normal(b)), line_of(e), wanted(e));
     return at ? at.place - middle : Vec3<double>{{0, 0, 0}};
   }
 
@@ -362,7 +421,7 @@ class Remesher {
     Vec3<double> sum = 4.0 * middle;
     for (const int end : {0, 1}) {
       const auto v = mesh_.vertex(e, end);
-      if (const auto at = project(mesh_.point(v), normal(v), on_line(e), wanted(e)))
+      if (const auto at = project(mesh_.point(v), normal(v), line_of(e), wanted(e)))
         sum = sum + (at.place - mesh_.point(v));
     }
     return (1.0 / 6) * sum;
@@ -381,11 +440,12 @@ class Remesher {
     std::vector<std::pair<Vertex, Point>> moves;
     for (const auto v : mesh_.vertices()) {
       const auto n = normal(v);
+      const auto line = line_of(v);
       double sum = 0, weights = 0;
       Vec3<double> line_sum{{0, 0, 0}};
       std::vector<Vec3<double>> line_gaps;
       for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
-        if (on_line(mesh_.edge(h))) {
+        if (line != Line::none && line_of(mesh_.edge(h)) == line) {
           line_gaps.push_back(line_deviation(mesh_.edge(h), gap[mesh_.edge(h)]));
           line_sum = line_sum + 0.5 * line_gaps.back();
         }
@@ -412,47 +472,10 @@ class Remesher {
   const TriangleTree& original_;
   std::span<const double> sizes_;
   RemeshOptions options_;
-  TriangleTree lines_;
+  TriangleTree rims_, creases_;
 };
 
 }  // namespace
-
-std::vector<Segment> find_creases(const TriangleSurface& surface) {
-  const double sharp = std::cos(50 * M_PI / 180);
-  struct Sharp {
-    double cosine;
-    Segment edge;
-  };
-  std::vector<Sharp> found;
-  for (const auto& edge : edges(surface)) {
-    if (edge.triangles.size() != 2) continue;
-    const auto n = area_vector(surface, surface.triangles[edge.triangles[0]]);
-    const auto m = area_vector(surface, surface.triangles[edge.triangles[1]]);
-    if (const double size = norm(n) * norm(m); dot(n, m) < sharp * size)
-      found.push_back({dot(n, m) / size, {edge.a, edge.b}});
-  }
-  // Lines do not branch: of the edges at a point the two sharpest stay, so that a narrow crest becomes one line.
-  std::sort(found.begin(), found.end(), [](const Sharp& a, const Sharp& b) { return a.cosine < b.cosine; });
-  std::vector<Segment> all;
-  std::map<std::int64_t, int> used;
-  for (const auto& [cosine, edge] : found) {
-    if (used[edge[0]] == 2 || used[edge[1]] == 2) continue;
-    ++used[edge[0]];
-    ++used[edge[1]];
-    all.push_back(edge);
-  }
-  std::vector<std::int64_t> group(surface.points.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](std::int64_t p) {
-    while (group[p] != p) p = group[p] = group[group[p]];
-    return p;
-  };
-  for (const auto& [a, b] : all) group[root(a)] = root(b);
-  std::map<std::int64_t, int> members;
-  for (const auto& [a, b] : all) ++members[root(a)];
-  std::erase_if(all, [&](const Segment& s) { return members[root(s[0])] < 3; });
-  return all;
-}
 
 Remeshed remesh(const Remeshed& start, const Original& original, const RemeshOptions& options) {
   return Remesher(start, original, options).run();

@@ -59,6 +59,7 @@ class Settling {
   /// Without a dissection: rings of at least `smallest_tear` stay.
   void settle_single(double smallest_tear, const Log& log) {
     make_ball(true_, "lumen", log, smallest_tear);
+    take_fingers(log);
     write();
   }
 
@@ -67,6 +68,7 @@ class Settling {
     part_from_true();
     make_ball(false_, "false lumen", log);
     one_contact_each(tears, log);
+    take_fingers(log);
     write();
   }
 
@@ -182,6 +184,18 @@ class Settling {
           best = t;
         }
     return best;
+  }
+
+  /// No mesh can follow lumen that is thinner than two voxels; blood hardly moves there.
+  void take_fingers(const Log& log) {
+    auto both = true_;
+    for (std::size_t i = 0; i < both.size(); ++i) both[i] |= false_[i];
+    const auto taken = take_thin_ends(frame_, both);
+    for (std::size_t i = 0; i < both.size(); ++i)
+      if (!both[i]) true_[i] = false_[i] = 0;
+    if (taken > 0)
+      log(fmt::format("{} voxels of lumen, {:.2f} ml, lie in ends thinner than two voxels and become wall", taken,
+                      1e6 * frame_.voxel_volume() * static_cast<double>(taken)));
   }
 
   void write() {

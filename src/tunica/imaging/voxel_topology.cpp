@@ -1,5 +1,6 @@
 #include "tunica/imaging/voxel_topology.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdlib>
@@ -157,6 +158,17 @@ double way_around(const ImageFrame& frame, const VoxelSet& ball, const std::vect
   return farthest;
 }
 
+/// Voxels of the set in blocks of 2 x 2 x 2 of its voxels.
+VoxelSet voxels_in_blocks(const ImageFrame& frame, const VoxelSet& set) {
+  VoxelSet thick(set.size(), 0);
+  const std::int64_t row = frame.size[0], slice = row * frame.size[1];
+  const std::array<std::int64_t, 8> block{0, 1, row, row + 1, slice, slice + 1, slice + row, slice + row + 1};
+  for (std::int64_t i = 0; i + block.back() < std::ssize(set); ++i)
+    if (set[i] && std::all_of(block.begin(), block.end(), [&](auto step) { return set[i + step] != 0; }))
+      for (const auto step : block) thick[i + step] = 1;
+  return thick;
+}
+
 }  // namespace
 
 bool is_simple(const ImageFrame& frame, const VoxelSet& set, std::int64_t index) {
@@ -182,6 +194,27 @@ std::vector<Handle> remove_handles(const ImageFrame& frame, const std::vector<fl
   }
   set = ball;
   return handles;
+}
+
+std::int64_t take_thin_ends(const ImageFrame& frame, VoxelSet& set) {
+  const auto thick = voxels_in_blocks(frame, set);
+  std::vector<std::int64_t> front;
+  for (std::int64_t i = 0; i < std::ssize(set); ++i)
+    if (set[i] && !thick[i]) front.push_back(i);
+  std::int64_t taken = 0;
+  while (!front.empty()) {
+    std::vector<std::int64_t> next;
+    for (const auto i : front) {
+      if (!set[i] || !is_simple(frame, set, i)) continue;
+      set[i] = 0;
+      ++taken;
+      for_each_neighbour(frame, i, [&](std::int64_t other, const Size3&) {
+        if (set[other] && !thick[other]) next.push_back(other);
+      });
+    }
+    front = std::move(next);
+  }
+  return taken;
 }
 
 std::int64_t keep_largest_part(const ImageFrame& frame, VoxelSet& set) {

@@ -29,6 +29,10 @@ struct Handle {
 /// Returns what was left out though it hangs together with the rest.
 std::vector<Handle> remove_handles(const ImageFrame& frame, const std::vector<float>& depth, VoxelSet& set);
 
+/// Takes away fingers and lamellae that are thinner than two voxels (in no block of 2 x 2 x 2 voxels of the set), from
+/// their free ends on, by simple voxels: the topology stays. Returns how many there were.
+std::int64_t take_thin_ends(const ImageFrame& frame, VoxelSet& set);
+
 /// Leaves the part of the set that has most voxels, joined by faces and edges; returns how many the others had.
 std::int64_t keep_largest_part(const ImageFrame& frame, VoxelSet& set);
 

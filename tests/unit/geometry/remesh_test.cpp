@@ -57,6 +57,36 @@ TEST(Remesh, KeepsVolumeRimsAndTopology) {
     for (const auto p : loop) EXPECT_NEAR(std::abs(mesh.points[p][2] - 10e-3), 10e-3, 1e-12);
 }
 
+TEST(Remesh, RimsStayPlaneBesideCreases) {
+  // A ridge along the tube: its crest is a crease that runs into both rims at a slant.
+  auto surface = tube(5e-3, 20e-3, 120, 60, 0);
+  for (auto& p : surface.points) {
+    const double angle = std::atan2(p[1], p[0]) - 40 * p[2];
+    const double height = std::max(0.0, 1.5e-3 * (1 - std::abs(std::sin(0.5 * angle)) / 0.1));
+    const double factor = 1 + height / std::hypot(p[0], p[1]);
+    p[0] *= factor;
+    p[1] *= factor;
+  }
+  ASSERT_GT(find_creases(surface).size(), 20u);
+  for (const double size : {0.7e-3, 1.5e-3, 2.5e-3}) {
+    const auto mesh = remeshed(surface, size).surface;
+    for (const auto& loop : boundary_loops(mesh))
+      for (const auto p : loop) EXPECT_NEAR(std::abs(mesh.points[p][2] - 10e-3), 10e-3, 1e-12) << size;
+  }
+}
+
+TEST(Remesh, NoTriangleHasItsCornersOnARimAlone) {
+  // Such a triangle lies in the plane of the opening.
+  auto surface = tube(5e-3, 20e-3, 60, 30);
+  surface.points.push_back({{5.2e-3, 0, 0}});
+  surface.triangles.push_back({1, 0, std::ssize(surface.points) - 1});
+  const auto mesh = remeshed(surface, 1.5e-3).surface;
+  std::vector<bool> on_rim(mesh.points.size(), false);
+  for (const auto& loop : boundary_loops(mesh))
+    for (const auto p : loop) on_rim[p] = true;
+  for (const auto& t : mesh.triangles) EXPECT_FALSE(on_rim[t[0]] && on_rim[t[1]] && on_rim[t[2]]);
+}
+
 TEST(Remesh, FollowsSizesThatVary) {
   const auto surface = tube(5e-3, 30e-3, 120, 90);
   std::vector<double> sizes;

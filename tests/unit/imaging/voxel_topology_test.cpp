@@ -123,5 +123,27 @@ TEST(Distance, IsThatOfTheNearestVoxel) {
   for (const float d : distance_to(frame, VoxelSet(frame.count(), 0))) EXPECT_TRUE(std::isinf(d));
 }
 
+TEST(VoxelTopology, ThinEndsAreTakenAndWhatJoinsStays) {
+  const auto frame = cube(24);
+  // Two balls, joined by a thread; on one of them a finger, on the other a lamella.
+  auto set = set_of(frame, [](const Point& p) {
+    const auto near = [&](double x, double y, double z) { return std::hypot(p[0] - x, p[1] - y, p[2] - z); };
+    if (near(6, 6, 6) < 3.4 || near(6, 6, 17) < 3.4) return 1;
+    const bool thread = p[0] == 6 && p[1] == 6 && p[2] > 6 && p[2] < 17;
+    const bool finger = p[0] > 6 && p[0] < 16 && p[1] == 6 && p[2] == 6;
+    const bool lamella = p[0] > 6 && p[0] < 16 && p[1] > 3 && p[1] < 9 && p[2] == 17;
+    return thread || finger || lamella ? 1 : 0;
+  });
+  const auto before = euler(frame, set);
+  const auto all = std::count(set.begin(), set.end(), 1);
+  const auto taken = take_thin_ends(frame, set);
+  EXPECT_GT(taken, 6 + 6 * 5 - 3);
+  EXPECT_EQ(std::count(set.begin(), set.end(), 1), all - taken);
+  EXPECT_EQ(euler(frame, set), before);
+  for (std::int64_t z = 6; z <= 17; ++z) EXPECT_TRUE(set[frame.index(6, 6, z)]) << z;
+  EXPECT_FALSE(set[frame.index(12, 6, 6)]);
+  EXPECT_FALSE(set[frame.index(12, 6, 17)]);
+}
+
 }  // namespace
 }  // namespace tunica::imaging
