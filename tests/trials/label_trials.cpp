@@ -3,6 +3,7 @@
 //
 //   label_trials [TRIALS [SEED [KIND ...]]]      TRIALS: how many (20), SEED: of the first one (1)
 //   label_trials --write FOLDER TRIALS SEED ...  writes images and case files for `tunica mesh` instead
+//   label_trials --keep FILE TRIALS SEED ...     adds each outcome to FILE, and leaves out trials that are in it
 //
 // A surface is right with as many openings as the body has, the genus of its tears, its volume within 2 % (3 % with
 // noise, thick slices and coarse voxels), and a flap whose median thickness is within 0.3 mm, but where the kind
@@ -15,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "closed_surface.hpp"
 #include "disturbed_labels.hpp"
@@ -122,10 +124,35 @@ void write_case(const std::filesystem::path& folder, const std::string& name, co
 
 struct Count {
   int right = 0, refused = 0, wrong = 0;
+
+  /// The outcome begins with "right", "refused" or "WRONG".
+  void add(const std::string& outcome) { ++(outcome[0] == 'W' ? wrong : outcome.starts_with("ri") ? right : refused); }
 };
 
-/// One trial; `count` gets its outcome.
-void run(const std::string& kind, unsigned seed, Count& count) {
+/// Outcomes by trial, from a file with lines of trial, tabulator, outcome; new ones are added to it.
+class Kept {
+ public:
+  explicit Kept(std::filesystem::path file) : file_(std::move(file)) {
+    std::ifstream in(file_);
+    for (std::string line; std::getline(in, line);)
+      if (const auto end = line.find('\t'); end != std::string::npos)
+        outcomes_[line.substr(0, end)] = line.substr(end + 1);
+  }
+  const std::string* find(const std::string& trial) const {
+    const auto found = outcomes_.find(trial);
+    return found == outcomes_.end() ? nullptr : &found->second;
+  }
+  void add(const std::string& trial, const std::string& outcome) const {
+    if (!file_.empty()) std::ofstream(file_, std::ios::app) << trial << '\t' << outcome << std::endl;
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::map<std::string, std::string> outcomes_;
+};
+
+/// One trial; returns its outcome in one line.
+std::string run(const std::string& kind, unsigned seed) {
   std::mt19937 random(seed);
   const Body body(random);
   const auto d = kinds().at(kind)(body, random);
@@ -136,28 +163,28 @@ void run(const std::string& kind, unsigned seed, Count& count) {
     const auto made = surface_of(d.image, d.settings, [&](const std::string& line) { lines.push_back(line); });
     const auto wrong = d.right == Right::error ? " a surface in place of an error" : faults(body, kind, made, figures);
     outcome = wrong.empty() ? "right" : "WRONG" + wrong;
-    ++(wrong.empty() ? count.right : count.wrong);
   } catch (const std::exception& error) {
     outcome = (d.right == Right::error ? "right, refused: " : "refused: ") + std::string(error.what());
-    ++(d.right == Right::error ? count.right : count.refused);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-14s %4u  %5.1f s  %s  [%s] %s\n", kind.c_str(), seed, seconds, outcome.c_str(), d.what.c_str(),
-              figures.c_str());
+  std::replace(outcome.begin(), outcome.end(), '\n', ' ');
+  outcome += fmt::format("  {:.1f} s  [{}] {}", seconds, d.what, figures);
+  std::printf("%-14s %4u  %s\n", kind.c_str(), seed, outcome.c_str());
   if (outcome.starts_with("WRONG") || outcome.starts_with("refused"))
     for (const auto& line : lines) std::printf("    %s\n", line.c_str());
   std::fflush(stdout);
+  return outcome;
 }
 
 }  // namespace
 }  // namespace tunica::imaging::trials
 
-int main(int count, char** values) {
+int main(int number, char** values) {
   using namespace tunica::imaging::trials;
-  std::vector<std::string> words(values + 1, values + count);
-  std::filesystem::path folder;
-  if (words.size() >= 2 && words[0] == "--write") {
-    folder = words[1];
+  std::vector<std::string> words(values + 1, values + number);
+  std::filesystem::path folder, file;
+  if (words.size() >= 2 && (words[0] == "--write" || words[0] == "--keep")) {
+    (words[0] == "--write" ? folder : file) = words[1];
     words.erase(words.begin(), words.begin() + 2);
   }
   const int trials = words.empty() ? 20 : std::stoi(words[0]);
@@ -165,17 +192,22 @@ int main(int count, char** values) {
   std::vector<std::string> names(words.begin() + std::min<std::ptrdiff_t>(2, std::ssize(words)), words.end());
   if (names.empty())
     for (const auto& [name, disturb] : kinds()) names.push_back(name);
-  Count outcome;
+  const Kept kept(file);
+  Count count;
   for (int n = 0; n < trials; ++n) {
     const auto& kind = names[static_cast<std::size_t>(n) % names.size()];
     if (folder.empty()) {
-      run(kind, seed + static_cast<unsigned>(n), outcome);
+      const auto trial = fmt::format("{} {}", kind, seed + static_cast<unsigned>(n));
+      const auto* known = kept.find(trial);
+      const auto outcome = known ? *known : run(kind, seed + static_cast<unsigned>(n));
+      if (!known) kept.add(trial, outcome);
+      count.add(outcome);
       continue;
     }
     std::mt19937 random(seed + static_cast<unsigned>(n));
     const Body body(random);
     write_case(folder, fmt::format("{}_{}", kind, seed + static_cast<unsigned>(n)), kinds().at(kind)(body, random));
   }
-  std::printf("%d right, %d refused that could be meshed, %d wrong\n", outcome.right, outcome.refused, outcome.wrong);
-  return outcome.wrong == 0 ? 0 : 1;
+  std::printf("%d right, %d refused that could be meshed, %d wrong\n", count.right, count.refused, count.wrong);
+  return count.wrong == 0 ? 0 : 1;
 }
