@@ -68,6 +68,7 @@ class Settling {
     part_from_true();
     make_ball(false_, "false lumen", log);
     one_contact_each(tears, log);
+    fill_pits(log);
     take_fingers(log);
     write();
   }
@@ -198,9 +199,31 @@ class Settling {
                       1e6 * frame_.voxel_volume() * static_cast<double>(taken)));
   }
 
+  /// Pits of the wall of the true lumen, with narrow mouths where the labels are rough. The flap has thin ends at its
+  /// tears, which stay.
+  void fill_pits(const Log& log) {
+    constexpr int steps = 2;
+    auto both = true_;
+    for (std::size_t i = 0; i < both.size(); ++i) both[i] |= false_[i];
+    const double flap = 4 * frame_.largest_spacing();
+    const auto away_from_flap = [&](std::int64_t i) {
+      const auto b = in_box(i);
+      return b < 0 || sides_->side[b] > flap;
+    };
+    const auto filled = fill_thin_pits(frame_, away_from_flap, steps, both);
+    for (std::size_t i = 0; i < both.size(); ++i)
+      if (both[i] && !false_[i]) true_[i] = 1;
+    if (filled > 0)
+      log(fmt::format("{} voxels in pits of the wall thinner than two voxels become lumen, {:.2f} ml", filled,
+                      1e6 * frame_.voxel_volume() * static_cast<double>(filled)));
+  }
+
   void write() {
-    for (std::int64_t i = 0; i < frame_.count(); ++i)
-      if (field_.values[i] < 0 && !true_[i] && !false_[i]) field_.values[i] = shut;
+    for (std::int64_t i = 0; i < frame_.count(); ++i) {
+      const bool lumen = true_[i] || false_[i];
+      if (lumen && field_.values[i] >= 0) field_.values[i] = -shut;
+      if (!lumen && field_.values[i] < 0) field_.values[i] = shut;
+    }
   }
 
   const FlapSides* sides_;

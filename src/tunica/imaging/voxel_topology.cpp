@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <limits>
 #include <queue>
 #include <unordered_map>
 
@@ -158,15 +159,47 @@ double way_around(const ImageFrame& frame, const VoxelSet& ball, const std::vect
   return farthest;
 }
 
-/// Voxels of the set in blocks of 2 x 2 x 2 of its voxels.
-VoxelSet voxels_in_blocks(const ImageFrame& frame, const VoxelSet& set) {
+/// Voxels of a value in blocks of 2 x 2 x 2 voxels of this value.
+VoxelSet voxels_in_blocks(const ImageFrame& frame, const VoxelSet& set, std::uint8_t value) {
   VoxelSet thick(set.size(), 0);
   const std::int64_t row = frame.size[0], slice = row * frame.size[1];
   const std::array<std::int64_t, 8> block{0, 1, row, row + 1, slice, slice + 1, slice + row, slice + row + 1};
   for (std::int64_t i = 0; i + block.back() < std::ssize(set); ++i)
-    if (set[i] && std::all_of(block.begin(), block.end(), [&](auto step) { return set[i + step] != 0; }))
+    if (set[i] == value && std::all_of(block.begin(), block.end(), [&](auto step) { return set[i + step] == value; }))
       for (const auto step : block) thick[i + step] = 1;
   return thick;
+}
+
+bool at_border(const ImageFrame& frame, std::int64_t i) {
+  const auto v = frame.voxel(i);
+  for (int d = 0; d < 3; ++d)
+    if (v[d] == 0 || v[d] + 1 == frame.size[d]) return true;
+  return false;
+}
+
+/// Turns simple voxels of a value that are in no block into the other value, `rounds` times from the free ends on.
+template <class May>
+std::int64_t turn_thin(const ImageFrame& frame, std::uint8_t value, int rounds, const May& may, VoxelSet& set) {
+  const auto thick = voxels_in_blocks(frame, set, value);
+  std::vector<std::int64_t> front;
+  for (std::int64_t i = 0; i < std::ssize(set); ++i)
+    if (set[i] == value && !thick[i] && !at_border(frame, i) && may(i)) front.push_back(i);
+  std::int64_t turned = 0;
+  for (int round = 0; round < rounds && !front.empty(); ++round) {
+    std::vector<std::int64_t> next;
+    // Only what is free now: the next ones are for the next round.
+    std::erase_if(front, [&](auto i) { return set[i] != value || !is_simple(frame, set, i); });
+    for (const auto i : front) {
+      if (set[i] != value || !is_simple(frame, set, i)) continue;
+      set[i] = static_cast<std::uint8_t>(1 - value);
+      ++turned;
+      for_each_neighbour(frame, i, [&](std::int64_t other, const Size3&) {
+        if (set[other] == value && !thick[other] && !at_border(frame, other) && may(other)) next.push_back(other);
+      });
+    }
+    front = std::move(next);
+  }
+  return turned;
 }
 
 }  // namespace
@@ -197,24 +230,13 @@ std::vector<Handle> remove_handles(const ImageFrame& frame, const std::vector<fl
 }
 
 std::int64_t take_thin_ends(const ImageFrame& frame, VoxelSet& set) {
-  const auto thick = voxels_in_blocks(frame, set);
-  std::vector<std::int64_t> front;
-  for (std::int64_t i = 0; i < std::ssize(set); ++i)
-    if (set[i] && !thick[i]) front.push_back(i);
-  std::int64_t taken = 0;
-  while (!front.empty()) {
-    std::vector<std::int64_t> next;
-    for (const auto i : front) {
-      if (!set[i] || !is_simple(frame, set, i)) continue;
-      set[i] = 0;
-      ++taken;
-      for_each_neighbour(frame, i, [&](std::int64_t other, const Size3&) {
-        if (set[other] && !thick[other]) next.push_back(other);
-      });
-    }
-    front = std::move(next);
-  }
-  return taken;
+  return turn_thin(
+      frame, 1, std::numeric_limits<int>::max(), [](std::int64_t) { return true; }, set);
+}
+
+std::int64_t fill_thin_pits(const ImageFrame& frame, const std::function<bool(std::int64_t)>& may, int steps,
+                            VoxelSet& set) {
+  return turn_thin(frame, 0, steps, may, set);
 }
 
 std::int64_t keep_largest_part(const ImageFrame& frame, VoxelSet& set) {

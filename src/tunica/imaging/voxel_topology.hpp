@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "tunica/imaging/label_image.hpp"
@@ -32,6 +33,11 @@ std::vector<Handle> remove_handles(const ImageFrame& frame, const std::vector<fl
 /// Takes away fingers and lamellae that are thinner than two voxels (in no block of 2 x 2 x 2 voxels of the set), from
 /// their free ends on, by simple voxels: the topology stays. Returns how many there were.
 std::int64_t take_thin_ends(const ImageFrame& frame, VoxelSet& set);
+
+/// The same for what pokes into the set: pits and notches thinner than two voxels, of voxels that `may` be filled, but
+/// from their bottom no more than `steps` voxels on, so that vessels side by side are not joined.
+std::int64_t fill_thin_pits(const ImageFrame& frame, const std::function<bool(std::int64_t)>& may, int steps,
+                            VoxelSet& set);
 
 /// Leaves the part of the set that has most voxels, joined by faces and edges; returns how many the others had.
 std::int64_t keep_largest_part(const ImageFrame& frame, VoxelSet& set);

@@ -149,5 +149,27 @@ TEST(VoxelTopology, ThinEndsAreTakenAndWhatJoinsStays) {
   EXPECT_FALSE(set[frame.index(12, 6, 17)]);
 }
 
+TEST(VoxelTopology, ThinPitsAreFilledAndVesselsSideBySideStayApart) {
+  const auto frame = cube(24);
+  VoxelSet set;
+  for (std::int64_t i = 0; i < frame.count(); ++i) {
+    const auto [x, y, z] = frame.voxel(i);
+    const bool block = x > 2 && x < 21 && y > 2 && y < 21 && z > 2 && z < 21;
+    const bool pit = x == 6 && y == 6 && z > 17;
+    const bool notch = x == 14 && z > 8;  // two vessels with a wall of a voxel between them
+    set.push_back(block && !pit && !notch);
+  }
+  const auto before = euler(frame, set);
+  const auto anywhere = [](std::int64_t) { return true; };
+  EXPECT_EQ(fill_thin_pits(
+                frame, [](std::int64_t) { return false; }, 2, set),
+            0);
+  EXPECT_GT(fill_thin_pits(frame, anywhere, 2, set), 2);
+  EXPECT_EQ(euler(frame, set), before);
+  EXPECT_TRUE(set[frame.index(6, 6, 18)]);
+  EXPECT_TRUE(set[frame.index(14, 12, 9)]);
+  EXPECT_FALSE(set[frame.index(14, 12, 13)]);
+}
+
 }  // namespace
 }  // namespace tunica::imaging
