@@ -43,7 +43,11 @@ float interpolated(float a, float b, float share, float far) {
   b = std::clamp(b, -unknown, unknown);
   if (a < 0) b = std::min(b, std::max(far, -a));
   if (b < 0) a = std::min(a, std::max(far, -b));
-  return (1 - share) * a + share * b;
+  const float mixed = (1 - share) * a + share * b;
+  // Distances are whole multiples of half a voxel, so that they often cancel: then the nearer slice decides, or all
+  // such voxels would be tissue.
+  constexpr float tie = 1e-7F;  // m
+  return std::abs(mixed) < tie ? std::copysign(tie, share < 0.5F ? a : b) : mixed;
 }
 
 /// `parts` slices in place of each along an axis; distances are interpolated between the middles of the old ones.
