@@ -15,11 +15,15 @@ if(TUNICA_CCACHE)
 endif()
 
 add_library(tunica_flags INTERFACE)
+set_target_properties(tunica_flags PROPERTIES EXPORT_NAME flags)
 # -Wno-psabi: packs are wider than the baseline registers; they never cross a library boundary by value.
 # -ffp-contract=fast is g++'s default and kept: results are compared with tolerances, not bit by bit across ISAs.
-target_compile_options(tunica_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
+target_compile_options(tunica_flags INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow> -Wno-psabi)
+# Without semantic interposition the compiler inlines our own functions into each other in shared libraries, too.
+target_compile_options(tunica_flags INTERFACE
+  $<BUILD_INTERFACE:$<$<BOOL:$<TARGET_PROPERTY:POSITION_INDEPENDENT_CODE>>:-fno-semantic-interposition>>)
 if(TUNICA_WERROR)
-  target_compile_options(tunica_flags INTERFACE -Werror)
+  target_compile_options(tunica_flags INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(TUNICA_SANITIZE)
   target_compile_options(tunica_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
@@ -27,7 +31,9 @@ if(TUNICA_SANITIZE)
   # The sanitizers take a quarter of an hour over the wider copies of the hot loops, which are the same source.
   target_compile_definitions(tunica_flags INTERFACE TUNICA_BASELINE_ISA)
 endif()
-target_include_directories(tunica_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_include_directories(tunica_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src>
+  $<INSTALL_INTERFACE:include>)
+target_compile_features(tunica_flags INTERFACE cxx_std_20)
 
 if(NOT TUNICA_PURE)
   set(HDF5_PREFER_PARALLEL ON)
@@ -54,6 +60,9 @@ function(tunica_cgal_sources)
     COMPILE_DEFINITIONS "NDEBUG;CGAL_USE_GMP;CGAL_USE_MPFR")
 endfunction()
 
+# The Python module is a shared library, so the rooms in it are position-independent.
+set(TUNICA_POSITION_INDEPENDENT base config files fe mesh mesh_io wall)
+
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
 # LINK names exactly what the include table in ARCHITECTURE.md allows.
 function(tunica_folder name)
@@ -66,10 +75,15 @@ function(tunica_folder name)
     tunica_instruction_sets(${sources})
     add_library(tunica_${name} STATIC ${sources})
     target_link_libraries(tunica_${name} PUBLIC tunica_flags ${ARG_LINK})
+    if(name IN_LIST TUNICA_POSITION_INDEPENDENT)
+      set_target_properties(tunica_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
   else()
     add_library(tunica_${name} INTERFACE)
     target_link_libraries(tunica_${name} INTERFACE tunica_flags ${ARG_LINK})
   endif()
+  set_target_properties(tunica_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY TUNICA_ROOMS tunica_${name})
 endfunction()
 
 # tunica_embed(<target> <namespace> <name>=<file>...): the files become part of the target, as functions <name>() of the

@@ -2,7 +2,7 @@
 // which folders may use MPI, PETSc, VTK and CGAL; no stage may include another. Prints every breach; also warns about
 // overlong files.
 //
-// Usage: check_includes ARCHITECTURE.md ROOT, where ROOT holds src/tunica and app.
+// Usage: check_includes ARCHITECTURE.md ROOT, where ROOT holds src/tunica, app and python.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -142,8 +142,9 @@ class Checker {
       }
       return;
     }
-    // The files of app/ are no library: they include each other by file name.
-    if (quoted && folder != "app") report(where + "write \"tunica/<folder>/<file>\" instead of \"" + header + '"');
+    // The files of app/ and python/ are no library: they include each other by file name.
+    if (quoted && folder != "app" && folder != "python")
+      report(where + "write \"tunica/<folder>/<file>\" instead of \"" + header + '"');
   }
 
   /// stages/a/ may include stages/a/ and the files in stages/ itself, these none of the stages.
@@ -186,7 +187,9 @@ int run(const fs::path& document, const fs::path& root) {
     const fs::path below = fs::relative(path, sources);
     checker.check_file(path, below.begin()->string());
   }
-  for (const auto& path : cpp_files(root / "app")) checker.check_file(path, "app");
+  for (const char* folder : {"app", "python"})
+    if (fs::exists(root / folder))
+      for (const auto& path : cpp_files(root / folder)) checker.check_file(path, folder);
   if (checker.files() == 0) throw std::runtime_error("no C++ file below " + sources.string());
   std::cout << checker.files() << " files, " << checker.breaches() << " breaches of the include rule\n";
   return checker.breaches() == 0 ? 0 : 1;
