@@ -18,12 +18,14 @@ inline CLI::Validator some_name() {
 
 void add_check(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_completion(CLI::App& app);
 void add_converge(CLI::App& app);
 void add_export(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_image(CLI::App& app);
 void add_import(CLI::App& app);
+void add_manual(CLI::App& app);
 void add_material(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);

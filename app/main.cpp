@@ -2,13 +2,17 @@
 // adds 128 + number of the signal that stopped it.
 #include <fcntl.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "output.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/config/nearest.hpp"
 #include "version.hpp"
 
 namespace {
@@ -29,21 +33,35 @@ void hold_on_to_streams() {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
 }
 
+/// A first argument that is neither a command nor an option: with the command that it most likely meant.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  const std::string meant = tunica::config::nearest(argv[1], names);
+  throw tunica::InputError(
+      argv[1], "is no command of tunica",
+      meant.empty() ? "see `tunica --help` for all commands" : "did you mean `tunica " + meant + "`?");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Fluid-structure interaction in aortic dissection.", "tunica");
-  app.set_version_flag("--version", tunica::app::version());
+  app.set_version_flag("--version", tunica::app::version_text);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 2 the input is wrong, 3 a computation failed.\n"
       "More about a subcommand: tunica <subcommand> --help");
   tunica::app::add_check(app);
   tunica::app::add_compare(app);
+  tunica::app::add_completion(app);
   tunica::app::add_converge(app);
   tunica::app::add_export(app);
   tunica::app::add_fibres(app);
   tunica::app::add_fit(app);
   tunica::app::add_image(app);
   tunica::app::add_import(app);
+  tunica::app::add_manual(app);
   tunica::app::add_material(app);
   tunica::app::add_mesh(app);
   tunica::app::add_picture(app);
@@ -58,7 +76,9 @@ int run(int argc, char** argv) {
   tunica::app::add_vary(app);
   tunica::app::add_verify(app);
   tunica::app::add_view(app);
+  tunica::app::add_quiet(app);
   try {
+    refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {  // how a subcommand returns another exit code
     return error.get_exit_code();

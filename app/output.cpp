@@ -2,15 +2,30 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
+#include <string>
+
+#include "tunica/base/error.hpp"
 
 namespace tunica::app {
 namespace {
 
 constexpr int solver_failure = 3;
+
+/// Commands whose result is their standard output.
+constexpr const char* printing[] = {"completion", "manual", "schema"};
+
+void hush() {
+  std::fflush(stdout);
+  if (std::freopen("/dev/null", "w", stdout) == nullptr)
+    throw InputError("--quiet", std::string("/dev/null cannot be opened: ") + std::strerror(errno),
+                     "send the standard output elsewhere");
+}
 
 }  // namespace
 
@@ -28,6 +43,12 @@ int with_standard_output(int code) {
                "is checked by itself. Free some space where the standard output goes\n",
                works_again ? "for a time it could not be written" : std::strerror(error));
   return solver_failure;
+}
+
+void add_quiet(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({}))
+    if (std::find(std::begin(printing), std::end(printing), command->get_name()) == std::end(printing))
+      command->add_flag_callback("-q,--quiet", hush, "Print nothing on the standard output; errors stay");
 }
 
 }  // namespace tunica::app

@@ -1,9 +1,7 @@
 #include "tunica/artifacts/manifest.hpp"
 
 #include <fmt/format.h>
-#include <petscversion.h>
 #include <sys/resource.h>
-#include <vtkVersion.h>
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +10,7 @@
 
 #include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/histories.hpp"
-#include "tunica/assembly/isa.hpp"
+#include "tunica/artifacts/libraries.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/hash.hpp"
@@ -31,19 +29,10 @@ constexpr const char* file_name = "manifest.json";
 
 std::uint64_t from_hex(const std::string& text) { return std::stoull(text, nullptr, 16); }
 
-std::string mpi_version() {
-  char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
-  int length = 0;
-  MPI_Get_library_version(text, &length);
-  const std::string version(text);
-  return version.substr(0, version.find(','));
-}
-
-ordered_json libraries() {
-  return {{"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
-          {"MPI", mpi_version()},
-          {"VTK", vtkVersion::GetVTKVersion()},
-          {"compiler", __VERSION__}};
+ordered_json library_versions() {
+  ordered_json json;
+  for (const auto& [name, version] : libraries()) json[name] = version;
+  return json;
 }
 
 /// Does `name` look like <region>_<step>.pvtu or <region>_<step>_<rank>.vtu?
@@ -133,22 +122,21 @@ void Manifest::write(const ManifestProgress& p) {
                     {"mesh_motion", p.timings.mesh}}},
                   {"peak_memory [MB]", p.peak_memory / 1e6}});
   if (p.dissipation) runs.back()["dissipation"] = to_json(*p.dissipation);
-  const ordered_json manifest = {{"tunica",
-                                  {{"version", head_.program.version},
-                                   {"commit", head_.program.commit},
-                                   {"instruction_set", assembly::name(assembly::choose_isa())}}},
-                                 {"libraries", libraries()},
-                                 {"case",
-                                  {{"file", head_.case_file.string()},
-                                   {"hash", files::hex(head_.inputs.fingerprint())},
-                                   {"text", head_.case_text}}},
-                                 {"mesh",
-                                  {{"hash", files::hex(head_.mesh_hash)},
-                                   {"nodes", head_.nodes},
-                                   {"elements", head_.elements},
-                                   {"regions", regions},
-                                   {"elements_across", across}}},
-                                 {"runs", runs}};
+  const ordered_json manifest = {
+      {"tunica",
+       {{"version", head_.program.version}, {"commit", head_.program.commit}, {"instruction_set", instruction_set()}}},
+      {"libraries", library_versions()},
+      {"case",
+       {{"file", head_.case_file.string()},
+        {"hash", files::hex(head_.inputs.fingerprint())},
+        {"text", head_.case_text}}},
+      {"mesh",
+       {{"hash", files::hex(head_.mesh_hash)},
+        {"nodes", head_.nodes},
+        {"elements", head_.elements},
+        {"regions", regions},
+        {"elements_across", across}}},
+      {"runs", runs}};
   files::write_atomically(file_, config::json_text(manifest));
 }
 
