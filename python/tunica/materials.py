@@ -289,14 +289,15 @@ def _document(key):
 
 def _law_function(name, key):
     def law(*value, volumetric_energy=None, incompressible=None, **parameters):
+        parameters = {k: given for k, given in parameters.items() if given is not None}
         if "section" in key:
             if value:
                 raise _error(name, "has an argument without a name", "name the keys of the law: key=value")
             content = _section(parameters, key["section"])
-        elif len(value) != 1 or parameters:
+        elif len(value) + ("value" in parameters) != 1 or set(parameters) - {"value"}:
             raise _error(name, "takes one value", f"give {_allowed(key) or 'the name of a file'}")
         else:
-            content = str(value[0])
+            content = str([*value, *parameters.values()][0])
         tree = {"material": {name: content}}
         if volumetric_energy is not None:
             tree["volumetric_energy"] = volumetric_energy
@@ -306,10 +307,13 @@ def _law_function(name, key):
 
     law.__name__ = law.__qualname__ = name
     law.__doc__ = _document(key)
+    kinds = inspect.Parameter
     if "section" in key:
-        kinds = inspect.Parameter
-        names = [k["key"] for k in key["section"]["keys"]] + ["volumetric_energy", "incompressible"]
-        law.__signature__ = inspect.Signature([kinds(n, kinds.KEYWORD_ONLY, default=None) for n in names])
+        arguments = [kinds(k["key"], kinds.KEYWORD_ONLY, default=None) for k in key["section"]["keys"]]
+    else:
+        arguments = [kinds("value", kinds.POSITIONAL_OR_KEYWORD)]
+    arguments += [kinds(n, kinds.KEYWORD_ONLY, default=None) for n in ("volumetric_energy", "incompressible")]
+    law.__signature__ = inspect.Signature(arguments)
     return law
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[np.float64]
-_Value = Union[str, float, bool, Sequence[Any], Dict[str, Any]]
+_Key = Union[str, float, Sequence[Any], Dict[str, Any], None]
 _Direction = Union[str, Sequence[float], _Floats]
 
 class Test:
@@ -17,6 +17,7 @@ class Test:
     first_piola_kirchhoff: _Floats
     second_piola_kirchhoff: _Floats
     tangent: _Floats
+    def __init__(self, load: _Floats, values: Dict[str, _Floats]) -> None: ...
     def stress(self, measure: str = ..., across: bool = ...) -> _Floats: ...
     def __len__(self) -> int: ...
 
@@ -77,18 +78,107 @@ class Material:
 def from_yaml(text: str) -> Material: ...
 def laws() -> Dict[str, Dict[str, Any]]: ...
 
-_Choice = Optional[str]
-_Flag = Optional[bool]
-
-def neo_hooke(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def mooney_rivlin(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def hgo(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def goh(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def fung(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def dfd(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def st_venant_kirchhoff(
-    *, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value
+def neo_hooke(
+    *,
+    young_modulus: _Key = ...,
+    shear_modulus: _Key = ...,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
 ) -> Material: ...
-def holzapfel_ogden(*, volumetric_energy: _Choice = ..., incompressible: _Flag = ..., **keys: _Value) -> Material: ...
-def aortic_tissue(part: str, *, volumetric_energy: _Choice = ..., incompressible: _Flag = ...) -> Material: ...
-def fitted(file: str, *, volumetric_energy: _Choice = ..., incompressible: _Flag = ...) -> Material: ...
+def mooney_rivlin(
+    *,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    c1: _Key = ...,
+    c2: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def hgo(
+    *,
+    young_modulus: _Key = ...,
+    shear_modulus: _Key = ...,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    exclusion: _Key = ...,
+    fibre_energy: _Key = ...,
+    families: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def goh(
+    *,
+    young_modulus: _Key = ...,
+    shear_modulus: _Key = ...,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    exclusion: _Key = ...,
+    fibre_energy: _Key = ...,
+    families: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def fung(
+    *,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    c: _Key = ...,
+    b_cc: _Key = ...,
+    b_ll: _Key = ...,
+    b_rr: _Key = ...,
+    b_cl: _Key = ...,
+    b_lr: _Key = ...,
+    b_rc: _Key = ...,
+    g_cl: _Key = ...,
+    g_lr: _Key = ...,
+    g_rc: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def dfd(
+    *,
+    young_modulus: _Key = ...,
+    shear_modulus: _Key = ...,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    exclusion: _Key = ...,
+    fibre_energy: _Key = ...,
+    directions: _Key = ...,
+    families: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def st_venant_kirchhoff(
+    *,
+    young_modulus: _Key = ...,
+    shear_modulus: _Key = ...,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def holzapfel_ogden(
+    *,
+    exclusion: _Key = ...,
+    fibre_energy: _Key = ...,
+    poisson_ratio: _Key = ...,
+    bulk_modulus: _Key = ...,
+    a: _Key = ...,
+    b: _Key = ...,
+    a_f: _Key = ...,
+    b_f: _Key = ...,
+    a_s: _Key = ...,
+    b_s: _Key = ...,
+    a_fs: _Key = ...,
+    b_fs: _Key = ...,
+    volumetric_energy: Optional[str] = ...,
+    incompressible: Optional[bool] = ...,
+) -> Material: ...
+def aortic_tissue(
+    value: str, *, volumetric_energy: Optional[str] = ..., incompressible: Optional[bool] = ...
+) -> Material: ...
+def fitted(
+    value: str, *, volumetric_energy: Optional[str] = ..., incompressible: Optional[bool] = ...
+) -> Material: ...

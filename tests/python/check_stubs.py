@@ -37,8 +37,9 @@ def main():
         if right.returncode or not wrong.returncode:
             print(right.stdout, right.stderr, wrong.stdout, sep="\n")
             return 1
+        (folder / "allowed").write_text("tunica._core.Law\n")  # its metaclass is one of pybind11
         test = subprocess.run([sys.executable, "-m", "mypy.stubtest", "tunica._core", "tunica.materials",
-                               "tunica.results", "--ignore-missing-stub"], cwd=folder, capture_output=True, text=True,
+                               "tunica.results", "--ignore-missing-stub", "--allowlist", "allowed"], cwd=folder, capture_output=True, text=True,
                               env={**os.environ, "MYPYPATH": str(folder)})
         print(test.stdout, test.stderr)
         return test.returncode
