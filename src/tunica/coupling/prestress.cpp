@@ -155,7 +155,7 @@ std::optional<State> FixedPoint::solve(double load, double relaxation) {
   record.seconds = report.timings.total;
   record.displacement = std::numeric_limits<double>::quiet_NaN();
   if (report.converged) find_largest_displacement(loaded, record);
-  result_.failure = report.failure;
+  record.failure = result_.failure = report.failure;
   follow_(record);
   if (!report.converged) return std::nullopt;
   return loaded;

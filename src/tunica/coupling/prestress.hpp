@@ -21,6 +21,7 @@ struct PrestressRecord {
   double load = 0;             ///< share of the load
   int newton = 0, linear = 0;  ///< iterations
   double seconds = 0;
+  std::string failure;  ///< why it is unsolved
 };
 
 struct PrestressResult {

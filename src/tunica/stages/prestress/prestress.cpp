@@ -384,11 +384,11 @@ void PrestressRun::follow(const coupling::PrestressRecord& r) {
   const std::string unit = case_.output.units.length;
   const double displacement = r.displacement * per_si(unit, config::dimension::length);
   const Vec3<double> place = per_si(unit, config::dimension::length) * r.place;
-  log_->info(fmt::format(
-      "iteration {}: {:.3e} {} near ({:.4g}, {:.4g}, {:.4g}); {:.3g} of the update, load {:.3g}, newton {}, "
-      "linear {}, {:.2f} s",
-      r.iteration, displacement, unit, place[0], place[1], place[2], r.relaxation, r.load, r.newton, r.linear,
-      r.seconds));
+  const std::string found = r.failure.empty() ? fmt::format("{:.3e} {} near ({:.4g}, {:.4g}, {:.4g})", displacement,
+                                                            unit, place[0], place[1], place[2])
+                                              : fmt::format("no equilibrium ({})", r.failure);
+  log_->info(fmt::format("iteration {}: {}; {:.3g} of the update, load {:.3g}, newton {}, linear {}, {:.2f} s",
+                         r.iteration, found, r.relaxation, r.load, r.newton, r.linear, r.seconds));
   parallel::on_root(comm_, [&] {
     history_->append(r.iteration, std::array{displacement, r.relaxation, r.load, static_cast<double>(r.newton),
                                              static_cast<double>(r.linear), r.seconds});
