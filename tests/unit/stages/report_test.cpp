@@ -71,7 +71,8 @@ TEST(Report, OpensOnWhatWasFoundBesideTargets) {
   place(page, "<td>75.5</td><td>mmHg</td><td>target 75.0 ± 2 %</td><td><span class=\"good\">within</span></td>");
   place(page, "<td>49.5</td><td>%</td><td>target 50 ± 2 %</td><td><span class=\"good\">within</span></td>");
   place(page,
-        "<td>0.25</td><td>Pa</td><td>1 to 7 in healthy arteries (Malek et al. 1999, JAMA 282:2035)</td>"
+        "<td>0.25</td><td>Pa</td><td>endothelium is quiescent above 1.5 and atherogenic below 0.4 (Malek et al. 1999, "
+        "JAMA 282:2035)</td>"
         "<td><span class=\"bad\">outside</span></td>");
   place(page, "Left out: flap");
   place(page, "default-src 'none'; script-src 'sha256-");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tunica/drawing/page.hpp"
 #include "tunica/stages/report/parts.hpp"
@@ -26,10 +27,12 @@ struct Beside {
 };
 
 /// Published values, with their source; a case may lie outside for good reasons.
-const Beside physiological_shear = {1, 7, "1 to 7 in healthy arteries (Malek et al. 1999, JAMA 282:2035)"};
-const Beside strength = {
-    0, 1180,
-    "tissue of aneurysms tears at 1180 ± 120, other at 1800 ± 240 (Vorp et al. 2003, Ann Thorac Surg 75:1210)"};
+const Beside physiological_shear = {
+    0.4, std::numeric_limits<double>::infinity(),
+    "endothelium is quiescent above 1.5 and atherogenic below 0.4 (Malek et al. 1999, JAMA 282:2035)"};
+const Beside strength = {0, 1180,
+                         "measured around ascending aortas: aneurysms tear at 1180 ± 120, others at 1800 ± 240 (Vorp "
+                         "et al. 2003, after table 1 of Sherifova & Holzapfel 2019, Acta Biomater 99:1)"};
 
 /// Rows of a table of figures: what, value, beside what.
 class Answers {
