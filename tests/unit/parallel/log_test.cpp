@@ -1,6 +1,7 @@
 #include "tunica/parallel/log.hpp"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <pty.h>
 #include <unistd.h>
 
@@ -49,10 +50,16 @@ class Terminal {
     std::fclose(stream);
     close(master_);
   }
+  /// All that has been written; a terminal hands it on in pieces, so it is waited for until it is silent.
   std::string text() const {
+    std::string all;
     char buffer[4096];
-    const auto count = read(master_, buffer, sizeof buffer);
-    return {buffer, static_cast<std::size_t>(std::max<ssize_t>(count, 0))};
+    for (pollfd ready{master_, POLLIN, 0}; poll(&ready, 1, all.empty() ? 2000 : 50) > 0;) {
+      const auto count = read(master_, buffer, sizeof buffer);
+      if (count <= 0) break;
+      all.append(buffer, static_cast<std::size_t>(count));
+    }
+    return all;
   }
   std::FILE* stream = nullptr;
 
