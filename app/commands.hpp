@@ -35,6 +35,7 @@ void add_prestress(CLI::App& app);
 void add_report(CLI::App& app);
 void add_run(CLI::App& app);
 void add_schema(CLI::App& app);
+void add_study(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_vary(CLI::App& app);

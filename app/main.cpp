@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
   tunica::app::add_report(app);
   tunica::app::add_run(app);
   tunica::app::add_schema(app);
+  tunica::app::add_study(app);
   tunica::app::add_tune(app);
   tunica::app::add_validate(app);
   tunica::app::add_vary(app);

@@ -33,6 +33,7 @@ void add_schema(CLI::App& app) {
       {"material", [] { return case_file::material_description(); }},
       {"fit", [] { return case_file::fit_description(); }},
       {"mesh", [] { return case_file::mesh_description(); }},
+      {"study", [] { return case_file::study_description(); }},
       {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},
       {"image", [] { return Description(stages::ScanCase::schema().description()); }},

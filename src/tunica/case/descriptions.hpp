@@ -1,5 +1,5 @@
-// What the files of `tunica material`, `tunica fit` and `tunica mesh` may hold, for callers that need not know what it
-// fills.
+// What the files of `tunica material`, `tunica fit`, `tunica mesh` and `tunica study` may hold, for callers that need
+// not know what it fills.
 #pragma once
 
 #include <memory>
@@ -11,5 +11,6 @@ namespace tunica::case_file {
 std::shared_ptr<const config::Description> material_description();
 std::shared_ptr<const config::Description> fit_description();
 std::shared_ptr<const config::Description> mesh_description();
+std::shared_ptr<const config::Description> study_description();
 
 }  // namespace tunica::case_file

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tunica/analysis/grid_convergence.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/case/face_patterns.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/drawing/page.hpp"
@@ -19,6 +17,7 @@
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/pipeline/figures.hpp"
 #include "tunica/pipeline/plan.hpp"
 
 namespace tunica::pipeline {
@@ -147,27 +146,6 @@ void write_levels(const ConvergeRequest& request, Study& study) {
 
 // --- figures --------------------------------------------------------------------------------------------------------
 
-/// Every number of post.json by its path, entries of lists by their name or their number.
-void collect(const json& value, const std::string& path, std::map<std::string, double>& figures) {
-  const std::string below = path.empty() ? "" : path + "/";
-  if (value.is_number()) figures[path] = value.get<double>();
-  if (value.is_object())
-    for (const auto& [key, entry] : value.items()) collect(entry, below + key, figures);
-  if (value.is_array())
-    for (std::size_t k = 0; k < value.size(); ++k)
-      collect(value[k],
-              below + (value[k].is_object() ? value[k].value("name", std::to_string(k + 1)) : std::to_string(k + 1)),
-              figures);
-}
-
-json read_json(const fs::path& file) {
-  files::refuse_other_than_file(file);
-  std::ifstream stream(file);
-  json read = json::parse(stream, nullptr, false);
-  if (read.is_discarded()) throw SolverError(fmt::format("{} does not read; do its stage anew", file.string()));
-  return read;
-}
-
 fs::path folder_of_stage(const Level& level, const Chain& chain, const char* stage) {
   if (level.name != "case") return level.results / stage;
   const auto at =
@@ -176,7 +154,7 @@ fs::path folder_of_stage(const Level& level, const Chain& chain, const char* sta
 }
 
 void read_level(Level& level, const Chain& chain) {
-  collect(read_json(folder_of_stage(level, chain, "post") / "post.json"), "", level.figures);
+  level.figures = read_figures(folder_of_stage(level, chain, "post") / "post.json");
   const json manifest = read_json(folder_of_stage(level, chain, "run") / "manifest.json");
   level.elements = manifest.at("mesh").at("elements");
   for (const auto& run : manifest.at("runs")) level.seconds += run.at("seconds").at("total").get<double>();
@@ -218,9 +196,7 @@ std::vector<Row> compare(const Study& study, const std::vector<std::string>& qua
   const auto mesh_sizes = sizes_of(study.base, study.meshes, &Level::size);
   const auto step_sizes = sizes_of(study.base, study.steps, &Level::step);
   for (const auto& [path, value] : study.base.figures) {
-    const bool wanted = std::any_of(quantities.begin(), quantities.end(),
-                                    [&](const auto& pattern) { return case_file::matches(pattern, path); });
-    if (!wanted) continue;
+    if (!fits_any(quantities, path)) continue;
     Row row{.path = path,
             .value = value,
             .meshes = values_of(path, study.base, study.meshes),
@@ -373,20 +349,6 @@ void write_results(Study& study, const ConvergeRequest& request, std::FILE* scre
 }
 
 }  // namespace
-
-const std::vector<std::string>& default_quantities() {
-  static const std::vector<std::string> patterns = {"openings/*/pressure/*",
-                                                    "openings/*/flow_outwards/mean_ml_s",
-                                                    "tears/*/volume_*",
-                                                    "tears/*/flow_into_false_lumen/*",
-                                                    "stations/*/true_minus_false_pressure/*",
-                                                    "false_lumen/ejection_fraction",
-                                                    "false_lumen/volume/*",
-                                                    "wall_shear/tawss_Pa/*",
-                                                    "stress/*/at_peak/*",
-                                                    "flap/*displacement*"};
-  return patterns;
-}
 
 int converge(const ConvergeRequest& request, MPI_Comm comm, std::FILE* screen) {
   files::FolderLock lock;  // rank 0; the chains in it find it their own

@@ -20,9 +20,6 @@ struct ConvergeRequest {
   std::vector<std::string> quantities{};  ///< patterns of figures; empty: default_quantities()
 };
 
-/// Patterns of the figures that are looked at, as paths in post.json with names in place of numbers of a list.
-const std::vector<std::string>& default_quantities();
-
 /// Does the case, then the same on finer meshes and, on its own mesh, with smaller steps, each as a chain of its own in
 /// converge/<level>; outlets are those of the case, steps start from its prestress. At last converge/converge.json,
 /// converge.csv and converge.html: every figure by level, its observed order and error band; the report of the case is

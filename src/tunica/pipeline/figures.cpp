@@ -1,0 +1,66 @@
+#include "tunica/pipeline/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tunica/base/error.hpp"
+#include "tunica/case/face_patterns.hpp"
+#include "tunica/files/outputs.hpp"
+
+namespace tunica::pipeline {
+
+namespace {
+
+using nlohmann::json;
+
+void collect(const json& value, const std::string& path, std::map<std::string, double>& figures) {
+  const std::string below = path.empty() ? "" : path + "/";
+  if (value.is_number()) figures[path] = value.get<double>();
+  if (value.is_object())
+    for (const auto& [key, entry] : value.items()) collect(entry, below + key, figures);
+  if (value.is_array())
+    for (std::size_t k = 0; k < value.size(); ++k)
+      collect(value[k],
+              below + (value[k].is_object() ? value[k].value("name", std::to_string(k + 1)) : std::to_string(k + 1)),
+              figures);
+}
+
+}  // namespace
+
+const std::vector<std::string>& default_quantities() {
+  static const std::vector<std::string> patterns = {"openings/*/pressure/*",
+                                                    "openings/*/flow_outwards/mean_ml_s",
+                                                    "tears/*/volume_*",
+                                                    "tears/*/flow_into_false_lumen/*",
+                                                    "stations/*/true_minus_false_pressure/*",
+                                                    "false_lumen/ejection_fraction",
+                                                    "false_lumen/volume/*",
+                                                    "wall_shear/tawss_Pa/*",
+                                                    "stress/*/at_peak/*",
+                                                    "flap/*displacement*"};
+  return patterns;
+}
+
+bool fits_any(const std::vector<std::string>& patterns, const std::string& path) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const auto& pattern) { return case_file::matches(pattern, path); });
+}
+
+json read_json(const std::filesystem::path& file) {
+  files::refuse_other_than_file(file);
+  std::ifstream stream(file);
+  json read = json::parse(stream, nullptr, false);
+  if (read.is_discarded()) throw SolverError(fmt::format("{} does not read; do its stage anew", file.string()));
+  return read;
+}
+
+std::map<std::string, double> read_figures(const std::filesystem::path& post_json) {
+  std::map<std::string, double> figures;
+  collect(read_json(post_json), "", figures);
+  return figures;
+}
+
+}  // namespace tunica::pipeline
