@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <set>
 
@@ -93,7 +94,7 @@ Document varied(const Document& base, const StudyPlan& plan, std::size_t point) 
 
 /// All that can matter to a stage before `run`, as text: points with the same text share what it makes.
 std::string what_matters(const Stage& stage, const std::vector<Setting>& settings) {
-  const auto under_any = [](const std::string& path, const std::vector<const char*>& sections) {
+  const auto under_any = [](const std::string& path, std::initializer_list<const char*> sections) {
     return std::any_of(sections.begin(), sections.end(), [&](const char* s) { return lies_under(path, s); });
   };
   const bool mesh = stage.name == std::string("mesh"), fibres = stage.name == std::string("fibres");

@@ -78,26 +78,28 @@ void find_sensitivities(const StudyPlan& plan, std::vector<Quantity>& quantities
 }
 
 /// As spreadsheets read it: quotes are doubled, and a text is one line.
-std::string quoted(std::string text) {
+std::string quoted(const std::string& text) {
   if (text.find_first_of(",;\"\r\n\t") == std::string::npos) return text;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  std::string all = "\"";
-  for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return all + "\"";
+  std::string all(1, '"');
+  for (const char c : text) {
+    if (c == '"') all.push_back(c);
+    all.push_back(c == '\n' || c == '\r' || c == '\t' ? ' ' : c);
+  }
+  all.push_back('"');
+  return all;
 }
 
 std::string csv_of(const StudyPlan& plan, const std::vector<Quantity>& quantities,
                    const std::vector<PointResult>& results) {
   std::string csv = "point";
-  for (const auto& axis : plan.axes) csv += "," + quoted(axis.label());
-  for (const auto& q : quantities) csv += "," + quoted(q.path);
+  for (const auto& axis : plan.axes) csv += fmt::format(",{}", quoted(axis.label()));
+  for (const auto& q : quantities) csv += fmt::format(",{}", quoted(q.path));
   csv += ",status,seconds,error\n";
   for (std::size_t k = 0; k < results.size(); ++k) {
-    csv += std::to_string(k + 1);
+    csv += fmt::format("{}", k + 1);
     for (std::size_t d = 0; d < plan.axes.size(); ++d)
-      csv += "," + (plan.axes[d].numeric ? fmt::format("{:.10g}", plan.points[k].numbers[d])
-                                         : quoted(plan.points[k].values[d]));
+      csv += fmt::format(",{}", plan.axes[d].numeric ? fmt::format("{:.10g}", plan.points[k].numbers[d])
+                                                     : quoted(plan.points[k].values[d]));
     for (const auto& q : quantities) csv += fmt::format(",{:.10g}", q.values[k]);
     csv +=
         fmt::format(",{},{:.1f},{}\n", results[k].state.status, results[k].seconds, quoted(results[k].state.message));
