@@ -86,7 +86,6 @@ Document varied(const Document& base, const StudyPlan& plan, std::size_t point) 
   for (const auto& stage : stages())
     if (*stage.output != 0) document.remove(stage.output);
   document.remove("compare");
-  document.set("output.directory", ".");
   const std::string title = document.text("title");
   document.set("title", fmt::format("{}{}point {}", title, title.empty() ? "" : ": ", point + 1));
   return document;
@@ -131,6 +130,7 @@ void share_stages(StudyPlan& plan, const std::vector<std::vector<Setting>>& sett
 std::string text_of(const StudyPlan& plan, std::size_t point, Document document) {
   const auto& c = plan.cases[point];
   config::move_paths(document, case_description(), plan.study.case_file.parent_path(), c.folder);
+  document.set("output.directory", ".");
   for (const auto& stage : stages())
     if (const auto at = c.shared.find(stage.name); at != c.shared.end())
       document.set(stage.output, at->second.lexically_relative(c.folder).string());
