@@ -146,7 +146,7 @@ TEST_F(StudyCommand, DoesStagesOnceThatPointsHaveInCommon) {
       "  \"wall_*\": fixed\n"
       "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
       "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n"
-      "time: {step: 1 ms, steps: 2, rho_infinity: 0.2}\n"
+      "time: {step: 1 ms, steps: 4, rho_infinity: 0.2}\n"
       "post: {}\n");
   write_study(
       "vary: {boundary.wall_outer.support.stiffness: [1e7 N/m^3, 2e7 N/m^3], boundary.lumen_inlet.flow: [20 ml/s, 30 "
