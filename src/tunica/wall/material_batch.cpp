@@ -8,7 +8,7 @@ extern template MaterialBatch material_batch<4>();
 extern template MaterialBatch material_batch<8>();
 #endif
 
-MaterialBatch material_batch(int width) {
+MaterialBatch material_batch([[maybe_unused]] int width) {
 #ifndef TUNICA_BASELINE_ISA
   if (width == 8) return material_batch<8>();
   if (width == 4) return material_batch<4>();
