@@ -161,7 +161,7 @@ void report_quality(CheckedMesh& mesh, std::vector<Problem>& problems) {
 CheckedMesh read_and_measure(const case_file::MeshSettings& m, const WallArrays& arrays,
                              std::vector<Problem>& problems) {
   LoadedMesh loaded = read_or_generate(m, arrays);
-  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), std::move(loaded.warnings)};
+  CheckedMesh mesh{std::move(loaded.data), std::move(loaded.report), std::move(loaded.warnings), loaded.ten_node};
   report_quality(mesh, problems);
   if (const auto odd = mesh::implausible_size(mesh.data, m.metres_per_unit ? std::optional(m.metres()) : std::nullopt))
     mesh.warnings.push_back(format(*odd));

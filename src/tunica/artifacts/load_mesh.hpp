@@ -21,6 +21,7 @@ struct CheckedMesh {
   mesh::MeshData data;
   std::vector<std::string> report;    ///< what the readers noticed, sizes and quality of the regions; for the log
   std::vector<std::string> warnings;  ///< elements of poor shape, too few across the lumen
+  bool ten_node = false;              ///< had one of the files ten-node tetrahedra?
   std::vector<geometry::AcrossPart> across{};  ///< of a case with flow: elements across the parts of its lumen
 };
 

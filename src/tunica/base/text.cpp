@@ -167,6 +167,14 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string decimal_exponent(std::string_view number) {
+  std::string result(number);
+  if (const auto d = number.find_first_of("dD");
+      d != std::string_view::npos && number.find_first_not_of("0123456789+-.dD") == std::string_view::npos)
+    result[d] = 'e';
+  return result;
+}
+
 std::string lower(std::string_view text) {
   std::string result(text);
   for (char& c : result)

@@ -28,6 +28,9 @@ std::string printable(std::string_view text, std::size_t longest = 60);
 /// Without blanks, tabs, byte-order marks and no-break spaces around.
 std::string_view trimmed(std::string_view text);
 
+/// Of digits, signs, a point and one D, as Fortran writes exponents: the same with an e. Any other text as it is.
+std::string decimal_exponent(std::string_view number);
+
 /// ASCII letters in lower case.
 std::string lower(std::string_view text);
 

@@ -72,9 +72,7 @@ Table read_simvascular(const TableFile& file) {
   const auto lines = files::read_lines(file.path, remedy);
   const auto where = [&](const files::TextLine& line) { return fmt::format("{}:{}", file.path.string(), line.number); };
   const auto number = [&](const files::TextLine& line, std::string_view cell) {
-    std::string plain(cell);  // svFSI reads exponents after D, as Fortran writes them
-    if (const auto d = plain.find_first_of("dD"); d != std::string::npos && d > 0) plain[d] = 'e';
-    return files::parse_number(plain, where(line), "");
+    return files::parse_number(text::decimal_exponent(cell), where(line), "");  // svFSI reads those of Fortran
   };
   const auto header = split_blanks(lines[0].text);
   const auto whole = [&](std::size_t i) {

@@ -169,6 +169,11 @@ std::string column_remedy(std::size_t cells, std::size_t headers, char separator
 
 }  // namespace
 
+std::string quoted(std::string text) {
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string all;
   for (const auto& name : names) all += (all.empty() ? "" : ", ") + text::printable(name, 60);

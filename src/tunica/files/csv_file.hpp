@@ -66,6 +66,9 @@ double parse_number(std::string_view cell, const std::string& where, const std::
 /// Is it one?
 bool is_number(std::string_view cell);
 
+/// The text as a cell in quotes, in which anything may stand; its own quotes are doubled.
+std::string quoted(std::string text);
+
 /// "a, b, c".
 std::string listed(const std::vector<std::string>& names);
 

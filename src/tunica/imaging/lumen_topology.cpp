@@ -187,10 +187,15 @@ class Settling {
     return best;
   }
 
-  /// No mesh can follow lumen that is thinner than two voxels; blood hardly moves there.
-  void take_fingers(const Log& log) {
+  VoxelSet lumen() const {
     auto both = true_;
     for (std::size_t i = 0; i < both.size(); ++i) both[i] |= false_[i];
+    return both;
+  }
+
+  /// No mesh can follow lumen that is thinner than two voxels; blood hardly moves there.
+  void take_fingers(const Log& log) {
+    auto both = lumen();
     const auto taken = take_thin_ends(frame_, both);
     for (std::size_t i = 0; i < both.size(); ++i)
       if (!both[i]) true_[i] = false_[i] = 0;
@@ -203,8 +208,7 @@ class Settling {
   /// tears, which stay.
   void fill_pits(const Log& log) {
     constexpr int steps = 2;
-    auto both = true_;
-    for (std::size_t i = 0; i < both.size(); ++i) both[i] |= false_[i];
+    auto both = lumen();
     const double flap = 4 * frame_.largest_spacing();
     const auto away_from_flap = [&](std::int64_t i) {
       const auto b = in_box(i);

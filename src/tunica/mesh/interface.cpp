@@ -49,6 +49,7 @@ void append_node_fields(std::vector<NodeField>& all, const std::vector<NodeField
 LoadedMesh concatenate(std::span<const LoadedMesh> parts) {
   LoadedMesh all;
   for (const auto& part : parts) {
+    all.ten_node |= part.ten_node;
     const Index node = std::ssize(all.data.points), element = std::ssize(all.data.tetrahedra);
     const auto region = static_cast<std::int32_t>(all.data.regions.size());
     all.data.points.insert(all.data.points.end(), part.data.points.begin(), part.data.points.end());

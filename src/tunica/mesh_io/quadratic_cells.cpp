@@ -104,11 +104,6 @@ Straightened keep_corners(VtkCells& cells) {
   return found;
 }
 
-bool holds_ten_node_tetrahedra(const std::filesystem::path& path) {
-  const VtkCells cells = read_vtk_volume(path);
-  return !cells.types.empty() && cells.types[0] == vtk_quadratic_tetrahedron;
-}
-
 VtkCells read_face_cells(const std::filesystem::path& path, const std::vector<std::string>& fields) {
   const bool grid = text::lower(path.extension().string()) == ".vtu";
   VtkCells cells = grid ? read_vtk_volume(path, {}, fields) : read_vtk_surface(path, fields);

@@ -27,9 +27,6 @@ struct Straightened {
 /// a node again, in its middle. Cells of other types, and of several, are left as they are.
 Straightened keep_corners(VtkCells& cells);
 
-/// Are the cells of a .vtu file ten-node tetrahedra? Throws as read_vtk_volume.
-bool holds_ten_node_tetrahedra(const std::filesystem::path& path);
-
 /// Reads the face of a volume: triangles in a .vtp file, or in a .vtu file as svMultiPhysics keeps the faces of
 /// ten-node tetrahedra; six-node triangles become those of their corners. `fields`: point arrays of one component,
 /// which have to be there. Throws as read_vtk_surface.

@@ -409,6 +409,7 @@ mesh::LoadedMesh read_mesh_files(const MeshFiles& files, mesh::RegionKind kind, 
   auto file = read_volume(files, kind, options);
   const Straightened straightened = keep_corners(file);
   mesh::LoadedMesh mesh;
+  mesh.ten_node = straightened.any;
   if (straightened.any) mesh.report.push_back(where + ": ten-node tetrahedra, of which the corners are kept");
   if (auto bent = describe(straightened, where); !bent.empty()) mesh.warnings.push_back(std::move(bent));
   auto& data = mesh.data;

@@ -22,18 +22,11 @@ std::optional<double> plain_number(std::string_view text) {
   return value;
 }
 
-bool has_fortran_exponent(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789+-.dD") == std::string_view::npos &&
-         text.find_first_of("dD") != std::string_view::npos;
-}
-
 }  // namespace
 
 ReadNumber read_number(std::string_view text, Dialect dialect) {
   if (const auto value = plain_number(text)) return {*value};
-  std::string other(text);
-  if (has_fortran_exponent(text)) {
-    other[other.find_first_of("dD")] = 'e';
+  if (const std::string other = text::decimal_exponent(text); other != text) {
     const auto value = plain_number(other);
     if (value && dialect != Dialect::xml) return {*value};
     if (value)
@@ -49,7 +42,7 @@ ReadNumber read_number(std::string_view text, Dialect dialect) {
 bool holds_fortran_exponents(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string word; stream >> word;)
-    if (has_fortran_exponent(word)) return true;
+    if (text::decimal_exponent(word) != word) return true;
   return false;
 }
 

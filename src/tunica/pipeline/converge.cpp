@@ -216,13 +216,11 @@ std::vector<Row> compare(const Study& study, const std::vector<std::string>& qua
 
 // --- what is written ------------------------------------------------------------------------------------------------
 
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
-
 ordered_json to_json(const analysis::ErrorBand& e) {
   return {{"kind", e.text()},
-          {"band", number(e.band)},
-          {"order", number(e.order)},
-          {"extrapolated", number(e.extrapolated)}};
+          {"band", finite_or_null(e.band)},
+          {"order", finite_or_null(e.order)},
+          {"extrapolated", finite_or_null(e.extrapolated)}};
 }
 
 ordered_json to_json(const Level& level) {

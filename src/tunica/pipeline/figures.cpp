@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -55,6 +56,10 @@ json read_json(const std::filesystem::path& file) {
   json read = json::parse(stream, nullptr, false);
   if (read.is_discarded()) throw SolverError(fmt::format("{} does not read; do its stage anew", file.string()));
   return read;
+}
+
+nlohmann::ordered_json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
 std::map<std::string, double> read_figures(const std::filesystem::path& post_json) {

@@ -19,6 +19,9 @@ bool fits_any(const std::vector<std::string>& patterns, const std::string& path)
 /// Throws SolverError where a file of a stage does not read. Not collective, as all here.
 nlohmann::json read_json(const std::filesystem::path& file);
 
+/// The number, or null where it is not finite, for which JSON has no word.
+nlohmann::ordered_json finite_or_null(double value);
+
 /// Every number of post.json by its path, entries of lists by their name or their number from 1.
 std::map<std::string, double> read_figures(const std::filesystem::path& post_json);
 

@@ -10,6 +10,7 @@
 
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/files/csv_file.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/pipeline/figures.hpp"
 #include "tunica/pipeline/record.hpp"
@@ -77,37 +78,30 @@ void find_sensitivities(const StudyPlan& plan, std::vector<Quantity>& quantities
   }
 }
 
-/// As spreadsheets read it: quotes are doubled, and a text is one line.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",;\"\r\n\t") == std::string::npos) return text;
-  std::string all(1, '"');
-  for (const char c : text) {
-    if (c == '"') all.push_back(c);
-    all.push_back(c == '\n' || c == '\r' || c == '\t' ? ' ' : c);
-  }
-  all.push_back('"');
-  return all;
+/// In one line, and in quotes where spreadsheets need them.
+std::string cell(std::string text) {
+  const bool plain = text.find_first_of(",;\"\r\n\t") == std::string::npos;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return plain ? text : files::quoted(std::move(text));
 }
 
 std::string csv_of(const StudyPlan& plan, const std::vector<Quantity>& quantities,
                    const std::vector<PointResult>& results) {
   std::string csv = "point";
-  for (const auto& axis : plan.axes) csv += fmt::format(",{}", quoted(axis.label()));
-  for (const auto& q : quantities) csv += fmt::format(",{}", quoted(q.path));
+  for (const auto& axis : plan.axes) csv += fmt::format(",{}", cell(axis.label()));
+  for (const auto& q : quantities) csv += fmt::format(",{}", cell(q.path));
   csv += ",status,seconds,error\n";
   for (std::size_t k = 0; k < results.size(); ++k) {
     csv += fmt::format("{}", k + 1);
     for (std::size_t d = 0; d < plan.axes.size(); ++d)
       csv += fmt::format(",{}", plan.axes[d].numeric ? fmt::format("{:.10g}", plan.points[k].numbers[d])
-                                                     : quoted(plan.points[k].values[d]));
+                                                     : cell(plan.points[k].values[d]));
     for (const auto& q : quantities) csv += fmt::format(",{:.10g}", q.values[k]);
-    csv +=
-        fmt::format(",{},{:.1f},{}\n", results[k].state.status, results[k].seconds, quoted(results[k].state.message));
+    csv += fmt::format(",{},{:.1f},{}\n", results[k].state.status, results[k].seconds, cell(results[k].state.message));
   }
   return csv;
 }
-
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
 ordered_json point_json(const StudyPlan& plan, std::size_t k, const std::vector<Quantity>& quantities,
                         const PointResult& result) {
@@ -120,10 +114,10 @@ ordered_json point_json(const StudyPlan& plan, std::size_t k, const std::vector<
 }
 
 ordered_json index_json(const analysis::SobolIndex& index) {
-  return {{"first", number(index.first)},
-          {"first_error", number(index.first_error)},
-          {"total", number(index.total)},
-          {"total_error", number(index.total_error)}};
+  return {{"first", finite_or_null(index.first)},
+          {"first_error", finite_or_null(index.first_error)},
+          {"total", finite_or_null(index.total)},
+          {"total_error", finite_or_null(index.total_error)}};
 }
 
 ordered_json json_of(const StudyPlan& plan, const std::vector<Quantity>& quantities,
@@ -138,7 +132,7 @@ ordered_json json_of(const StudyPlan& plan, const std::vector<Quantity>& quantit
   for (const auto& q : quantities)
     for (std::size_t d = 0; d < plan.axes.size(); ++d) {
       const std::string& key = plan.axes[d].key;
-      if (!q.rank_correlation.empty()) page["rank_correlation"][q.path][key] = number(q.rank_correlation[d]);
+      if (!q.rank_correlation.empty()) page["rank_correlation"][q.path][key] = finite_or_null(q.rank_correlation[d]);
       if (q.indices) page["sobol_indices"][q.path][key] = index_json(q.indices->of[d]);
       if (q.indices) page["sobol_rows"][q.path] = q.indices->rows;
     }

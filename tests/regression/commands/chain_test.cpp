@@ -8,37 +8,18 @@
 #include <thread>
 
 #include "program.hpp"
+#include "tube_case.hpp"
 
 namespace tunica::test {
 namespace {
 
 class ChainCommand : public Program {
  protected:
-  static constexpr const char* tube =
-      "meshes:\n"
-      "  tube: {radius: 5 mm, length: 20 mm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, cells_along: 4}\n"
-      "  interface: {lumen: lumen_wall, wall: wall_inner}\n";
-  static constexpr const char* rest =
-      "title: Tube\n"
-      "analysis: fsi\nelements: linear\n"
-      "fluid: {}\n"
-      "fibres: {inlet: [wall_inlet, lumen_inlet], outer: wall_outer, mean_angle: 35 deg}\n"
-      "wall:\n"
-      "  density: 1100 kg/m^3\n"
-      "  material: {hgo: {shear_modulus: 40 kPa, poisson_ratio: 0.49, families: [{k1: 60 kPa, k2: 5, "
-      "mean_angle: 35 deg}]}}\n"
-      "boundary:\n"
-      "  lumen_inlet: {flow: 20 ml/s}\n"
-      "  lumen_outlet: {resistance: 5e8 Pa s/m^3}\n"
-      "  \"wall_*\": fixed\n"
-      "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
-      "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n"
-      "post: {}\nreport: {pictures: false}\n";
-
   void write_case(const std::string& time, const std::string& output, const std::string& from = "",
                   const std::string& to = "") const {
-    std::string text = std::string(tube) + rest + "time: {step: 1 ms, steps: " + time + ", rho_infinity: 0.2}\n" +
-                       "output: {" + output + "}\n";
+    std::string text = std::string("title: Tube\n") + coarse_tube + prestressed_tube +
+                       "post: {}\nreport: {pictures: false}\ntime: {step: 1 ms, steps: " + time +
+                       ", rho_infinity: 0.2}\n" + "output: {" + output + "}\n";
     if (!from.empty()) text.replace(text.find(from), from.size(), to);
     write("case.yaml", text);
   }
@@ -131,7 +112,7 @@ TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
 TEST_F(ChainCommand, KilledWhileOutletsAreTunedItComesToTheSameResult) {
   write("inflow.csv", "t,Q\n0,5\n0.2,80\n0.4,5\n0.8,5\n");
   const auto write_tuned = [&](const std::string& output) {
-    write("case.yaml", std::string(tube) +
+    write("case.yaml", std::string(coarse_tube) +
                            "analysis: fsi\nelements: linear\nfluid: {}\n"
                            "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 0.4 MPa, poisson_ratio: "
                            "0.49}}}\n"

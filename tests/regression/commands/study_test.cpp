@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "program.hpp"
+#include "tube_case.hpp"
 
 namespace tunica::test {
 namespace {
@@ -128,26 +129,8 @@ TEST_F(StudyCommand, DoesSinglePointsOfAnArray) {
 
 // The inflow of the run is none of the steady flow's under the prestress, and the support none of the directions'.
 TEST_F(StudyCommand, DoesStagesOnceThatPointsHaveInCommon) {
-  write(
-      "case.yaml",
-      "title: Tube\nanalysis: fsi\nelements: linear\n"
-      "meshes:\n"
-      "  tube: {radius: 5 mm, length: 20 mm, wall_thickness: 1 mm, cells_around: 8, cells_radial: 1, cells_along: 4}\n"
-      "  interface: {lumen: lumen_wall, wall: wall_inner}\n"
-      "fluid: {}\n"
-      "fibres: {inlet: [wall_inlet, lumen_inlet], outer: wall_outer, mean_angle: 35 deg}\n"
-      "wall:\n"
-      "  density: 1100 kg/m^3\n"
-      "  material: {hgo: {shear_modulus: 40 kPa, poisson_ratio: 0.49, families: [{k1: 60 kPa, k2: 5, mean_angle: 35 "
-      "deg}]}}\n"
-      "boundary:\n"
-      "  lumen_inlet: {flow: 20 ml/s}\n"
-      "  lumen_outlet: {resistance: 5e8 Pa s/m^3}\n"
-      "  \"wall_*\": fixed\n"
-      "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
-      "prestress: {flow: {pressure: 80 mmHg, inflow: 20 ml/s, step: 1 ms, steps: 20}, tolerance: 0.01 mm}\n"
-      "time: {step: 1 ms, steps: 4, rho_infinity: 0.2}\n"
-      "post: {}\n");
+  write("case.yaml", std::string("title: Tube\n") + coarse_tube + prestressed_tube +
+                         "time: {step: 1 ms, steps: 4, rho_infinity: 0.2}\npost: {}\n");
   write_study(
       "vary: {boundary.wall_outer.support.stiffness: [1e7 N/m^3, 2e7 N/m^3], boundary.lumen_inlet.flow: [20 ml/s, 30 "
       "ml/s]}\n"

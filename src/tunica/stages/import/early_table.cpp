@@ -19,7 +19,7 @@ void write_early_table(const std::filesystem::path& from, double seconds, const 
     std::istringstream words{std::string(lines[n].text)};
     std::string word;
     for (int k = 0; words >> word; ++k) {
-      if (const auto d = word.find_first_of("dD"); d != std::string::npos && d > 0) word[d] = 'e';
+      word = text::decimal_exponent(word);
       if (k == 0 && (series ? n == 0 : n > 0))
         word = fmt::format(
             "{}", files::parse_number(word, fmt::format("{}:{}", from.string(), lines[n].number), "") - seconds);

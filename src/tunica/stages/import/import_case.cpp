@@ -8,7 +8,6 @@
 #include "tunica/case/case.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
-#include "tunica/mesh_io/quadratic_cells.hpp"
 #include "tunica/peer_cases/translate.hpp"
 #include "tunica/stages/import/early_table.hpp"
 #include "tunica/stages/import/initial_state.hpp"
@@ -48,9 +47,7 @@ peer_cases::Findings look_at_meshes(case_file::Case c, std::vector<std::string>&
   const auto mesh = artifacts::load_meshes(c.meshes, {});
   warnings.insert(warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
   peer_cases::Findings found;
-  for (const auto* files :
-       {c.meshes.lumen ? &c.meshes.lumen->files : nullptr, c.meshes.wall ? &c.meshes.wall->files : nullptr})
-    found.quadratic |= files != nullptr && mesh_io::holds_ten_node_tetrahedra(files->volume);
+  found.quadratic = mesh.ten_node;
   for (const auto& face : mesh.data.faces) {
     found.lumen_rest |= face.name == lumen;
     found.wall_rest |= face.name == wall;

@@ -7,16 +7,11 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::stages {
 
 namespace {
-
-/// A cell of a table in which anything may stand.
-std::string quoted(std::string text) {
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
-  return '"' + text + '"';
-}
 
 MeshOutcome attempt(const std::string& file, const std::function<std::string(const std::string&)>& make) {
   const auto start = std::chrono::steady_clock::now();
@@ -58,7 +53,7 @@ std::string outcome_text(const std::vector<MeshOutcome>& outcomes) {
 void write_outcomes(const std::vector<MeshOutcome>& outcomes, const std::string& path) {
   std::string csv = "file,exit_code,seconds,outcome\n";
   for (const auto& o : outcomes)
-    csv += fmt::format("{},{},{:.1f},{}\n", quoted(o.file), o.exit_code, o.seconds, quoted(o.message));
+    csv += fmt::format("{},{},{:.1f},{}\n", files::quoted(o.file), o.exit_code, o.seconds, files::quoted(o.message));
   files::write_atomically(path, csv);
 }
 
