@@ -30,9 +30,10 @@ struct Beside {
 const Beside physiological_shear = {
     0.4, std::numeric_limits<double>::infinity(),
     "endothelium is quiescent above 1.5 and atherogenic below 0.4 (Malek et al. 1999, JAMA 282:2035)"};
-const Beside strength = {0, 1180,
-                         "measured around ascending aortas: aneurysms tear at 1180 ± 120, others at 1800 ± 240 (Vorp "
-                         "et al. 2003, after table 1 of Sherifova & Holzapfel 2019, Acta Biomater 99:1)"};
+const Beside strength = {
+    0, 1180,
+    "measured around ascending aortas: aneurysms tear at 1180 ± 120 kPa, others at 1800 ± 240 kPa (Vorp "
+    "et al. 2003, after table 1 of Sherifova & Holzapfel 2019, Acta Biomater 99:1)"};
 
 /// Rows of a table of figures: what, value, beside what.
 class Answers {
@@ -166,7 +167,7 @@ std::string stress_table(const Results& r) {
                       : page::table(head, rows,
                                     "Stress in the wall: so many per cent of a region's volume stay below, largest of "
                                     "the beat; beside it: " +
-                                        strength.text + " kPa");
+                                        strength.text);
 }
 
 /// Does the pressure at the inlet come back to where it began?
