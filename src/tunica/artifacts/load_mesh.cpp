@@ -12,6 +12,7 @@
 #include "tunica/coupling/wall_prestress.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/interface.hpp"
 #include "tunica/mesh/plausible_size.hpp"
 #include "tunica/mesh/quality.hpp"
@@ -209,7 +210,7 @@ void name_faces(case_file::Case& c, const CheckedMesh& mesh, MPI_Comm comm) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-CheckedMesh load_mesh(const case_file::Case& c) {
+CheckedMesh load_corner_mesh(const case_file::Case& c) {
   if (c.mesh || c.fibres)
     throw InputError(c.mesh ? "mesh" : "fibres", "is a stage to be done first, which `tunica run` alone does",
                      "use `tunica run`, or the case file in the folder of a stage that it has made");
@@ -234,6 +235,12 @@ CheckedMesh load_mesh(const case_file::Case& c) {
   named.boundary = case_file::without_patterns(c.boundary, free_faces(c.meshes, names_of(faces_of(mesh.data))), known);
   mesh.across = resolution(named, mesh.data);
   if (const auto few = too_few_across(named, mesh.across)) mesh.warnings.push_back(format(*few));
+  return mesh;
+}
+
+CheckedMesh load_mesh(const case_file::Case& c) {
+  CheckedMesh mesh = load_corner_mesh(c);
+  if (c.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(mesh.data);
   return mesh;
 }
 

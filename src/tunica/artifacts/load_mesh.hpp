@@ -26,9 +26,12 @@ struct CheckedMesh {
 };
 
 /// Reads or generates the meshes of the case, joins them, adds the prestress that the wall has, checks the shapes of
-/// the elements and that every face has exactly one condition. Throws InputError with all problems that were found. Not
-/// collective: for one rank.
+/// the elements and that every face has exactly one condition; with the nodes on edges where the case has quadratic
+/// elements. Throws InputError with all problems that were found. Not collective: for one rank.
 CheckedMesh load_mesh(const case_file::Case& c);
+
+/// The same without the nodes on edges: what programs with linear elements know of the mesh.
+CheckedMesh load_corner_mesh(const case_file::Case& c);
 
 /// The named faces of a mesh.
 std::vector<bc::BoundaryFace> faces_of(const mesh::MeshData& data);

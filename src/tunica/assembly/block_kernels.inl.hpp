@@ -10,6 +10,8 @@ namespace {  // internal: never shared between instruction sets
 
 typedef float Float4 __attribute__((vector_size(16)));
 typedef double Double4 __attribute__((vector_size(32)));
+typedef std::uint16_t Half4 __attribute__((vector_size(8)));
+typedef std::uint32_t Bits4 __attribute__((vector_size(16)));
 
 TUNICA_INLINE Float4 load4(const float* p) {
   Float4 v;
@@ -17,6 +19,17 @@ TUNICA_INLINE Float4 load4(const float* p) {
   return v;
 }
 TUNICA_INLINE void store4(float* p, Float4 v) { __builtin_memcpy(p, &v, sizeof v); }
+
+// Four numbers that are the upper halves of floats.
+TUNICA_INLINE Float4 load_rounded(const unsigned char* p) {
+  Half4 half;
+  __builtin_memcpy(&half, p, sizeof half);
+  return (Float4)(__builtin_convertvector(half, Bits4) << 16);
+}
+TUNICA_INLINE void store_rounded(unsigned char* p, Float4 v) {
+  const Half4 half = __builtin_convertvector(((Bits4)v + 0x8000U) >> 16, Half4);
+  __builtin_memcpy(p, &half, sizeof half);
+}
 
 template <int W>
 void multiply(std::int32_t rows, const std::int32_t* row_begin, const std::int32_t* columns, const float* blocks,
@@ -84,9 +97,23 @@ inline bool invert(const float* a, float* inverse) {
 
 // s - sum over the row's blocks of block x.
 TUNICA_INLINE Float4 eliminate(const IluFactors::Triangle& t, std::int32_t row, Float4 s, const float* x) {
-  for (std::int32_t b = t.row_begin[row]; b < t.row_begin[row + 1]; ++b)
-    s -= product(t.blocks + 12 * static_cast<std::ptrdiff_t>(b), x + 4 * static_cast<std::ptrdiff_t>(t.columns[b]));
+  const auto* blocks = reinterpret_cast<const unsigned char*>(t.blocks);
+  for (std::int32_t b = t.row_begin[row]; b < t.row_begin[row + 1]; ++b) {
+    const unsigned char* a = blocks + 24 * static_cast<std::ptrdiff_t>(b);
+    const float* v = x + 4 * static_cast<std::ptrdiff_t>(t.columns[b]);
+    s -= load_rounded(a) * v[0] + load_rounded(a + 8) * v[1] + load_rounded(a + 16) * v[2];
+  }
   return s;
+}
+
+// Ascending, since a rounded block ends before the float that comes next.
+template <int W>
+void ilu_round(const IluFactors& f) {
+  for (const auto* t : {&f.lower, &f.upper}) {
+    auto* rounded = reinterpret_cast<unsigned char*>(t->blocks);
+    for (std::ptrdiff_t k = 0; k < 3 * static_cast<std::ptrdiff_t>(t->row_begin[f.rows]); ++k)
+      store_rounded(rounded + 8 * k, load4(t->blocks + 4 * k));
+  }
 }
 
 template <int W>
@@ -173,7 +200,8 @@ void multiply_columns(std::int32_t rows, const std::int32_t* row_begin, const st
 
 template <int W>
 BlockKernels make_block_kernels() {
-  return {&multiply<W>, &multiply3<W>, &multiply_rows<W>, &multiply_columns<W>, &ilu_solve<W>, &ilu_factorise<W>};
+  return {&multiply<W>,  &multiply3<W>, &multiply_rows<W>, &multiply_columns<W>,
+          &ilu_round<W>, &ilu_solve<W>, &ilu_factorise<W>};
 }
 
 }  // namespace tunica::assembly

@@ -34,7 +34,7 @@ SchurPreconditioner::SchurPreconditioner(const distributed::DistributedMesh& mes
   factors_ = {n, lower_.view(), upper_.view(), inverse_blocks_.data()};
 
   if (!mesh.quadratic) divergence_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
-  gradient_.resize(4 * static_cast<std::size_t>(pattern.blocks()));
+  find_columns_with_pressure();
   inverse_diagonal_.assign(n, 0);
   scale_.assign(4 * static_cast<std::size_t>(n), 1);
   z_.resize(4 * static_cast<std::size_t>(n));
@@ -71,6 +71,21 @@ SchurPreconditioner::SchurPreconditioner(const distributed::DistributedMesh& mes
 /// Integral of the squared shape function of an edge over the volume of the element.
 constexpr double edge_mass = 32.0 / 420.0;
 
+// Of quadratic elements the corners have a pressure, an eighth of the nodes.
+void SchurPreconditioner::find_columns_with_pressure() {
+  std::vector<char> on_edge(static_cast<std::size_t>(pattern_.columns_count), 0);
+  for (const auto& edge : distributed::edge_nodes(mesh_)) on_edge[static_cast<std::size_t>(edge.node)] = 1;
+  for (std::int32_t i = 0; i < pattern_.rows; ++i) {
+    for (auto b = pattern_.row_begin[i]; b < pattern_.row_begin[i + 1]; ++b) {
+      if (on_edge[static_cast<std::size_t>(pattern_.columns[b])]) continue;
+      gradient_.columns.push_back(pattern_.columns[b]);
+      gradient_.source.push_back(b);
+    }
+    gradient_.row_begin.push_back(static_cast<std::int32_t>(gradient_.columns.size()));
+  }
+  gradient_.blocks.resize(4 * gradient_.columns.size());
+}
+
 // Reference geometry is enough for a preconditioner.
 void SchurPreconditioner::make_laplacians() {
   pressure_pattern_ = make_pressure_pattern(mesh_);
@@ -105,13 +120,10 @@ void SchurPreconditioner::make_laplacians() {
 }
 
 void SchurPreconditioner::extract(const BlockMatrix& matrix) {
-  for (std::int32_t b = 0; b < pattern_.blocks(); ++b) {
-    const float* a = matrix.blocks[b].a;
-    for (int c = 0; c < 3; ++c) {
-      if (!mesh_.quadratic) divergence_[4 * static_cast<std::size_t>(b) + c] = a[4 * c + 3];
-      gradient_[4 * static_cast<std::size_t>(b) + c] = a[12 + c];
-    }
-  }
+  for (std::size_t k = 0; k < gradient_.source.size(); ++k)
+    for (int c = 0; c < 3; ++c) gradient_.blocks[4 * k + c] = matrix.blocks[gradient_.source[k]].a[12 + c];
+  for (std::int32_t b = 0; b < pattern_.blocks() && !mesh_.quadratic; ++b)
+    for (int c = 0; c < 3; ++c) divergence_[4 * static_cast<std::size_t>(b) + c] = matrix.blocks[b].a[4 * c + 3];
   for (std::int32_t i = 0; i < pattern_.rows; ++i) {
     const float* a = matrix.blocks[pattern_.diagonal[i]].a;
     for (int c = 0; c < 3; ++c) {
@@ -148,7 +160,10 @@ std::int32_t SchurPreconditioner::factorise_shifted(const BlockMatrix& matrix, f
       copy(triangle->source[k], off_diagonal, triangle->blocks.data() + 12 * k);
   for (std::int32_t i = 0; i < pattern_.rows; ++i)
     copy(pattern_.diagonal[i], 1.0F, inverse_blocks_.data() + 12 * static_cast<std::size_t>(i));
-  return block_kernels(isa_).ilu_factorise(factors_, scratch_.data());
+  const auto& kernels = block_kernels(isa_);
+  const std::int32_t singular = kernels.ilu_factorise(factors_, scratch_.data());
+  kernels.ilu_round(factors_);
+  return singular;
 }
 
 bool SchurPreconditioner::factors_are_stable() {
@@ -350,8 +365,8 @@ void SchurPreconditioner::apply(std::span<const double> r, std::span<double> z) 
   const std::int32_t n = pattern_.rows;
   const auto& kernels = block_kernels(isa_);
   const auto push = [&] {
-    kernels.multiply_columns(n, pattern_.row_begin.data(), pattern_.columns.data(), gradient_.data(), halo_p_.data(),
-                             second_.data());
+    kernels.multiply_columns(n, gradient_.row_begin.data(), gradient_.columns.data(), gradient_.blocks.data(),
+                             halo_p_.data(), second_.data());
   };
   const auto put = [&](const auto& value) {
     for (std::int32_t i = 0; i < n; ++i)

@@ -46,6 +46,7 @@ class SchurPreconditioner {
   const std::vector<double>& scale() const { return scale_; }
 
  private:
+  void find_columns_with_pressure();
   void extract(const BlockMatrix& matrix);
   void factorise(const BlockMatrix& matrix);
   /// Factors with off-diagonal blocks divided by 1 + shift; returns a singular row or -1.
@@ -79,7 +80,12 @@ class SchurPreconditioner {
   std::vector<std::int32_t> scratch_;
   IluFactors factors_;
 
-  std::vector<float> divergence_, gradient_;  ///< D (linear elements only) and G, [block][4], the fourth entry unused
+  struct Gradient {
+    std::vector<std::int32_t> row_begin{0}, columns, source;  ///< source: block of the matrix
+    std::vector<float> blocks;                                ///< [block][4], the fourth entry unused
+  };
+  Gradient gradient_;              ///< G, columns with a pressure only
+  std::vector<float> divergence_;  ///< D, of linear elements only; [block of the matrix][4], the fourth entry unused
   std::vector<double> scale_;
 
   // S: pressures couple over one ring of elements.

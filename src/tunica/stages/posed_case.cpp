@@ -13,7 +13,6 @@
 #include "tunica/base/error.hpp"
 #include "tunica/case/table_ends.hpp"
 #include "tunica/distributed/results_writer.hpp"
-#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::stages {
@@ -65,7 +64,6 @@ ReadCase read_case(MPI_Comm comm, const fs::path& case_file) {
     for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
     for (const auto& warning : artifacts::unusual_outlets(c.settings)) c.warnings.push_back(format(warning));
     c.mesh = artifacts::load_mesh(c.settings);
-    if (c.settings.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(c.mesh.data);
     c.inputs = artifacts::run_inputs(c.text, case_file);
     if (c.settings.outlets) artifacts::Fingerprints().add(c.inputs, "outlets.file", c.settings.outlets->file());
   });

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "small_cases.hpp"
@@ -129,6 +130,22 @@ TEST(Tuning, IsNotComputedTwiceAndNoticesChanges) {
             std::string::npos);
   EXPECT_NE(message_of<InputError>([&] { tune(file); }).find("--overwrite"), std::string::npos);
   tune(file, true);
+}
+
+TEST(Tuning, RunsTheElementsOfTheCase) {
+  const SharedFolder folder;
+  folder.write("inflow.csv", inflow_table());
+  std::string text = rigid_case(
+      "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {lumen_outlet: 1}, step: 40 ms, tolerance: 0.1}\n");
+  text.replace(text.find("linear"), 6, "quadratic");
+  text.replace(text.find("steps: 200"), 10, "steps: 1");
+  const auto file = folder.write("case.yaml", text);
+  tune(file);
+  run(file);
+  const auto mesh_of = [&](const char* results) {
+    return nlohmann::json::parse(slurp(folder.path() / results / "manifest.json")).at("mesh").at("hash").dump();
+  };
+  EXPECT_EQ(mesh_of("outlets/cycle_1"), mesh_of("results"));
 }
 
 TEST(Tuning, KeepsTheBestWhereTheTargetsAreMissed) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <set>
 #include <vector>
 
@@ -89,10 +90,11 @@ TEST(BlockKernels, IncompleteFactorsOfABlockTridiagonalMatrixAreExact) {
     auto x = padded_rhs(n);
     std::vector<double> rhs;
     for (std::int32_t i = 0; i < n; ++i) rhs.insert(rhs.end(), x.begin() + 4 * i, x.begin() + 4 * i + 3);
+    block_kernels(isa).ilu_round(matrix.factors());
     block_kernels(isa).ilu_solve(matrix.factors(), x.data());
     const auto exact = dense_solve(matrix.dense, rhs);
     for (std::int32_t i = 0; i < n; ++i)
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(x[test::at(i) + c], exact[3 * i + c], 2e-6);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(x[test::at(i) + c], exact[3 * i + c], 1e-3);  // eight bits of 0.2
   }
 }
 
@@ -137,6 +139,30 @@ TEST(BlockKernels, ProductOfIncompleteFactorsAgreesOnThePattern) {
           for (std::size_t k = 0; k < m; ++k) sum += lower[(3 * row + i) * m + k] * upper[k * m + 3 * column + j];
           EXPECT_NEAR(sum, matrix.dense[(3 * row + i) * m + 3 * column + j], 1e-5) << row << ", " << column;
         }
+  }
+}
+
+// The upper half of a float: sign, exponent and seven bits of the mantissa after the leading one.
+TEST(BlockKernels, RoundedFactorsAreTheNearestOfEightBits) {
+  constexpr std::int32_t n = 12;
+  for (const auto isa : test::available_isas()) {
+    SCOPED_TRACE(name(isa));
+    Factorisable matrix(n, {1, 4});
+    ASSERT_EQ(block_kernels(isa).ilu_factorise(matrix.factors(), matrix.position.data()), -1);
+    for (auto* triangle : {&matrix.lower, &matrix.upper}) {
+      const std::vector<float> before = triangle->blocks;
+      std::vector<std::int32_t> empty(n + 1, 0);
+      const IluFactors::Triangle left_alone{empty.data(), nullptr, nullptr};
+      block_kernels(isa).ilu_round({n, triangle->view(), left_alone, matrix.diagonal.data()});
+      for (std::size_t k = 0; k < before.size(); ++k) {
+        std::uint16_t half = 0;
+        std::memcpy(&half, reinterpret_cast<const unsigned char*>(triangle->blocks.data()) + 2 * k, sizeof half);
+        const auto bits = static_cast<std::uint32_t>(half) << 16;
+        float value = 0;
+        std::memcpy(&value, &bits, sizeof value);
+        EXPECT_NEAR(value, before[k], std::abs(before[k]) / 256) << k;
+      }
+    }
   }
 }
 

@@ -250,7 +250,7 @@ void write_all(const Exported& e, const Entry& root, const fs::path& folder, std
 ExportOutcome export_case(const ExportRequest& request) {
   const auto& units = peer_cases::unit_system(request.units);
   auto read = case_file::read_case(request.case_file);
-  const auto mesh = artifacts::load_mesh(read.value);
+  const auto mesh = artifacts::load_corner_mesh(read.value);
   artifacts::name_faces(read.value, mesh, MPI_COMM_SELF);
   Exported exported{.c = read.value, .data = mesh.data, .units = units};
   const Entry root = solver_file(exported);

@@ -18,7 +18,6 @@
 #include "tunica/case/case.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
-#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
 #include "tunica/peer_cases/unit_system.hpp"
 
@@ -152,8 +151,7 @@ std::vector<std::string> write_histories(const case_file::Case& c, const mesh::M
 std::vector<std::string> export_results(const ResultsRequest& request) {
   const Units units(peer_cases::unit_system(request.units));
   const auto c = case_file::read_case(request.case_file).value;
-  auto mesh = artifacts::load_mesh(c);
-  if (c.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(mesh.data);
+  const auto mesh = artifacts::load_mesh(c);
   fs::create_directories(request.folder);
   auto files = write_fields(c, mesh.data, units, request.folder);
   for (auto& file : write_histories(c, mesh.data, units, request.folder)) files.push_back(std::move(file));

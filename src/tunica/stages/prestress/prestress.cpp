@@ -24,7 +24,6 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -195,7 +194,6 @@ void PrestressRun::read() {
     if (case_.wall) case_.wall->prestress.reset();
     auto warnings = std::move(whole_.warnings);
     whole_ = artifacts::load_mesh(case_);
-    if (case_.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(whole_.data);
     whole_.warnings.insert(whole_.warnings.begin(), warnings.begin(), warnings.end());
     mesh_hash_ = artifacts::mesh_hash(whole_.data);
     lumen_part_ = mesh::submesh(whole_.data, RegionKind::lumen);
