@@ -14,7 +14,7 @@ coupling::ProblemInput problem_input(const case_file::Case& c) {
   input.boundary.wall_has_pressure = c.wall_has_pressure();
   input.boundary.fluid = c.fluid;
   input.boundary.pressure_point = c.pressure_point;
-  if (c.time) input.rho_infinity = c.time->rho_infinity;
+  if (c.time) input.rho_infinity = c.time->rho_infinity, input.loads = c.time->loads;
   input.newton = c.newton;
   input.linear = c.linear;
   return input;

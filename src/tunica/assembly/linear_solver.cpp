@@ -5,9 +5,10 @@
 namespace tunica::assembly {
 
 LinearSolver::LinearSolver(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa,
-                           KrylovSettings settings)
+                           KrylovSettings settings, Ties ties)
     : mesh_(mesh),
       isa_(isa),
+      ties_(std::move(ties)),
       preconditioner_(mesh, pattern, isa),
       halo_(4 * static_cast<std::size_t>(pattern.columns_count)),
       work_(4 * static_cast<std::size_t>(pattern.rows)),
@@ -19,7 +20,8 @@ void LinearSolver::update_preconditioner(const BlockMatrix& matrix, const std::v
   preconditioner_.update(matrix, outlets);
 }
 
-// In the scaled variables x^ = d x, r^ = r / d.
+// In the scaled variables x^ = d x, r^ = r / d. Tied, x^ is d times one vector; the right-hand side, and so every
+// vector of the Krylov space, is projected on these.
 void LinearSolver::multiply(const double* x, double* y) {
   const auto& d = preconditioner_.scale();
   const std::size_t n = work_.size();
@@ -31,6 +33,7 @@ void LinearSolver::multiply(const double* x, double* y) {
     for (std::size_t k = 0; k < q.size(); ++k) add_scaled((*outlets_)[k], (*outlets_)[k].coefficient * q[k], {y, n});
   }
   for (std::size_t i = 0; i < n; ++i) y[i] /= d[i];
+  ties_.project(d, {y, n});
 }
 
 void LinearSolver::precondition(const double* r, double* z) {
@@ -39,6 +42,7 @@ void LinearSolver::precondition(const double* r, double* z) {
   for (std::size_t i = 0; i < n; ++i) work_[i] = r[i] * d[i];
   preconditioner_.apply(work_, {z, n});
   for (std::size_t i = 0; i < n; ++i) z[i] *= d[i];
+  ties_.project(d, {z, n});
 }
 
 LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<RankOne>& outlets,
@@ -48,6 +52,7 @@ LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<Ra
   const auto& d = preconditioner_.scale();
   std::vector<double> b(work_.size());
   for (std::size_t i = 0; i < b.size(); ++i) b[i] = rhs[i] / d[i];
+  ties_.project(d, b);
   const LinearResult result = krylov_.solve(b, x.first(b.size()), absolute);
   for (std::size_t i = 0; i < b.size(); ++i) x[i] /= d[i];
   mesh_.halo.update(x, 4);

@@ -8,15 +8,18 @@
 #include "tunica/assembly/krylov.hpp"
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/assembly/schur_preconditioner.hpp"
+#include "tunica/assembly/ties.hpp"
 
 namespace tunica::assembly {
 
 /// Solves (A + sum c_k s_k s_k^T) x = b. Right-preconditioned, so the residual that is tested is the true one, in a
 /// norm where every equation is divided by the square root of its diagonal entry: momentum and continuity, fluid and
-/// wall then weigh alike.
+/// wall then weigh alike. With ties x is sought among the vectors that obey them, and the equations of tied nodes are
+/// met in their sum (Galerkin): b must hold means there.
 class LinearSolver {
  public:
-  LinearSolver(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa, KrylovSettings settings);
+  LinearSolver(const distributed::DistributedMesh& mesh, const BlockPattern& pattern, Isa isa, KrylovSettings settings,
+               Ties ties = {});
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
@@ -37,6 +40,7 @@ class LinearSolver {
 
   const distributed::DistributedMesh& mesh_;
   Isa isa_;
+  Ties ties_;
   SchurPreconditioner preconditioner_;
   const BlockMatrix* matrix_ = nullptr;
   const std::vector<RankOne>* outlets_ = nullptr;

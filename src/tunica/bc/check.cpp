@@ -107,6 +107,9 @@ class Checker {
       problems_.push_back({fmt::format("boundary.{}.{}.fixed", name, bc::name(condition)),
                            "is given, but the face is one of the lumen", "remove it: it holds faces of walls"});
     }
+    if (face && face->field == Field::lumen && undeforming(condition) && !coupled_.contains(name))
+      problems_.push_back({fmt::format("boundary.{}.{}.undeforming", name, bc::name(condition)),
+                           "is set, but the face is one of the lumen", "remove it: it is for faces of walls"});
   }
 
   /// A lumen face whose condition sets the pressure; empty when there is none.

@@ -41,6 +41,12 @@ Axes held_axes(const Condition& condition) {
   return {};
 }
 
+bool undeforming(const Condition& condition) {
+  if (const auto* pressure = std::get_if<Pressure>(&condition)) return pressure->undeforming;
+  if (const auto* traction = std::get_if<Traction>(&condition)) return traction->undeforming;
+  return false;
+}
+
 Waveform inflow(const Flow& flow) {
   const auto* table = std::get_if<TableSource>(&flow.course.source);
   const bool outflow = flow.positive == Flow::Sign::outflow ||

@@ -58,18 +58,21 @@ struct Traction {
   Vec3<double> vector{};      ///< Pa
   WaveformInput course{1.0};  ///< dimensionless
   Axes fixed{};               ///< no displacement along these, beside the load; wall faces alone
+  bool undeforming = false;   ///< the face moves as a whole, without turning; wall faces alone
   static config::Schema<Traction> schema();
 };
 
 // Resistance and Rcr: outlets.hpp.
 
-/// v(x, t) at the nodes of a face, by formulas or by a table of points, times course(t). The nodes get what these say:
-/// the flow through the face is that of their interpolation. Exactly one of `velocity`, `speed` and `table` is given.
+/// v(x, t) at the nodes of a face, by formulas or by a table of points and perhaps times, times course(t). The nodes
+/// get what these say: the flow through the face is that of their interpolation. Exactly one of `velocity`, `speed` and
+/// `table` is given.
 struct VelocityProfile {
   enum class Interpolation { nearest, linear };
   std::vector<std::string> velocity{};         ///< formulas (formula.hpp) of the three components
   std::optional<std::string> speed{};          ///< formula of the speed into the domain, along the mean normal
-  std::optional<std::filesystem::path> table;  ///< CSV with the columns x, y, z, vx, vy, vz
+  std::optional<std::filesystem::path> table;  ///< CSV with the columns x, y, z, vx, vy, vz, and t where it varies
+  std::optional<double> period{};              ///< of a table with t [s]; none: its first and last values hold
   double unit = 1.0, length_unit = 1.0;        ///< of velocities [m/s] and coordinates [m], in formulas and table
   Interpolation interpolation = Interpolation::linear;
   WaveformInput course{1.0};  ///< dimensionless
@@ -89,7 +92,8 @@ struct Symmetry {
 struct Pressure {
   WaveformInput pressure;  ///< Pa
   bool follower = true;
-  Axes fixed{};  ///< no displacement along these, beside the load; wall faces alone
+  Axes fixed{};              ///< no displacement along these, beside the load; wall faces alone
+  bool undeforming = false;  ///< the face moves as a whole, without turning; wall faces alone
   static config::Schema<Pressure> schema();
 };
 
@@ -158,6 +162,8 @@ config::Schema<Condition> condition_schema();
 std::string_view name(const Condition& condition);
 bool fits_lumen(const Condition& condition);
 bool fits_wall(const Condition& condition);
+/// Does the wall face move as a whole?
+bool undeforming(const Condition& condition);
 /// Axes along which the displacement of a wall face is given, be it zero; those of a normal direction are none.
 Axes held_axes(const Condition& condition);
 /// Does it prescribe the velocity (and so leave the pressure open)?

@@ -158,7 +158,10 @@ Schema<SupportValue> support_value_schema(const config::Dimension& due, const co
       .shorthand("value");
 }
 
-constexpr const char* fixed_beside_load = "Of a wall face: axes along which it does not move, under the load";
+constexpr const char *fixed_beside_load = "Of a wall face: axes along which it does not move, under the load",
+                     *moves_as_a_whole =
+                         "Of a wall face: it moves as a whole under the load and does not turn, like a "
+                         "plate bonded to it";
 
 }  // namespace
 
@@ -194,6 +197,8 @@ Schema<Traction> Traction::schema() {
                "Factor over time; constant when left out")
       .optional()
       .any_of("fixed", &Traction::fixed, {"x", "y", "z"}, fixed_beside_load)
+      .by_default()
+      .flag("undeforming", &Traction::undeforming, moves_as_a_whole)
       .by_default();
 }
 
@@ -204,6 +209,8 @@ Schema<Pressure> Pressure::schema() {
             "On a wall face: true follows the deformed face, false keeps the reference normal and area")
       .by_default()
       .any_of("fixed", &Pressure::fixed, {"x", "y", "z"}, fixed_beside_load)
+      .by_default()
+      .flag("undeforming", &Pressure::undeforming, moves_as_a_whole)
       .by_default()
       .shorthand("value");
 }
@@ -305,6 +312,8 @@ void check_profile(const VelocityProfile& profile, Problems& problems) {
   if (!profile.velocity.empty() && profile.velocity.size() != 3)
     problems.add("velocity", fmt::format("has {} formulas", profile.velocity.size()),
                  "give three: the components x, y, z, such as [\"4*y*(1-y)\", \"0\", \"0\"]");
+  if (profile.period && !profile.table)
+    problems.add("period", "belongs to a `table` with a column t", "remove it, formulas know the time as t");
   const auto check_formula = [&](const char* key, const std::string& text) {
     try {
       const Formula formula(text);
@@ -325,7 +334,12 @@ Schema<VelocityProfile> VelocityProfile::schema() {
       .texts("velocity", &VelocityProfile::velocity, "Formulas of the components x, y, z of the velocity")
       .by_default()
       .text("speed", &VelocityProfile::speed, "Formula of the speed into the domain, along the mean normal of the face")
-      .file("table", &VelocityProfile::table, "CSV file with the columns x, y, z, vx, vy, vz, a line for each point")
+      .file(
+          "table", &VelocityProfile::table,
+          "CSV file with the columns x, y, z, vx, vy, vz, a line for each point; with a column t (in s) as many times, "
+          "between which the velocities are linear, each with the same points in the same order")
+      .quantity("period", &VelocityProfile::period, dimension::time, above(0),
+                "Of a table with a column t: it repeats itself; when left out its first and last values hold")
       .unit("unit", &VelocityProfile::unit, dimension::velocity, "Unit of the velocity")
       .unit("length_unit", &VelocityProfile::length_unit, dimension::length, "Unit of x, y and z")
       .choice("interpolation", &VelocityProfile::interpolation,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "tunica/bc/conditions.hpp"
@@ -13,25 +14,39 @@ namespace tunica::bc {
 std::function<Vec3<double>(const Vec3<double>&, double)> velocity_by_formula(const VelocityProfile& profile,
                                                                              const Vec3<double>& outward);
 
-/// Measured or computed velocities at scattered points.
+/// Measured or computed velocities at scattered points, at one time or at several.
 class PointTable {
  public:
-  /// Reads the table of `profile`. Throws InputError when it does not read, lacks a column or has no line.
+  /// Reads the table of `profile`. Throws InputError when it does not read, lacks a column or has no line, when its
+  /// times do not increase from block to block or have other points, and for a period without times or shorter than
+  /// these.
   explicit PointTable(const VelocityProfile& profile);
+
+  /// Of one time alone?
+  bool steady() const { return times_.size() == 1; }
 
   /// Velocity [m/s] at a place [m]: that of the nearest point; or a linear function fitted to the nearest twelve with
   /// weights 1 / distance^2 (moving least squares), which takes the values of the table at its points and is exact for
   /// linear fields. Where the points lie in a plane or on a line, the function is constant across it. Throws InputError
   /// for a place further from all points than these are from each other.
-  Vec3<double> velocity(const Vec3<double>& place) const;
+  Vec3<double> velocity(const Vec3<double>& place) const { return at(place, 0, 0, 0.0); }
+  /// The same at time t [s], linear between the times of the table; repeated with its period, or else with the first
+  /// and last values before and after.
+  Vec3<double> velocity(const Vec3<double>& place, double t) const;
 
  private:
+  void add(const Vec3<double>& x, double t);
+  /// Of the share `share` of the time `to` and the rest of `from`, numbers of times.
+  Vec3<double> at(const Vec3<double>& place, std::size_t from, std::size_t to, double share) const;
   std::vector<std::size_t> nearest(const Vec3<double>& place) const;
 
   std::string file_;
   VelocityProfile::Interpolation interpolation_;
-  double extent_ = 0;                          ///< diagonal of the box around the points [m]
-  std::vector<Vec3<double>> points_, values_;  ///< m, m/s
+  double extent_ = 0;                     ///< diagonal of the box around the points [m]
+  std::vector<double> times_;             ///< s
+  std::optional<double> period_;          ///< s
+  std::vector<Vec3<double>> points_;      ///< m
+  std::vector<Vec3<double>> velocities_;  ///< [time][point], m/s
 };
 
 }  // namespace tunica::bc

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "tunica/base/error.hpp"
 #include "tunica/bc/velocity_profile.hpp"
@@ -274,6 +275,46 @@ struct Boundaries::Builder {
           held[mesh.host[wall_node]].direction({{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
     });
   }
+  // A face that moves as a whole is held along whatever one of its nodes is held along.
+  void tie(const distributed::Face& face, const std::vector<char>& moved) {
+    std::set<std::int32_t> nodes;
+    for_each_node(face, [&](std::int32_t wall_node) { nodes.insert(mesh.host[wall_node]); });
+    parallel::agree(mesh.comm, [&] {
+      for (const auto node : nodes)
+        if (moved[node])
+          throw InputError("boundary." + face.name,
+                           "moves as a whole (`undeforming`) and shares nodes with a face that is moved by "
+                           "`displacement` or moves as a whole itself",
+                           "give the two faces no node in common");
+    });
+    double sums[9] = {};
+    std::vector<std::int32_t> owned;
+    for (const auto node : nodes) {
+      if (node >= mesh.owned_nodes) continue;
+      owned.push_back(node);
+      for (int k = 0; k < 9; ++k) sums[k] += (k % 4 == 0 ? 1.0 : 0.0) - held[node].P(k / 3, k % 3);
+    }
+    parallel::global_sum(mesh.comm, sums);
+    for (int j = 0; j < 3; ++j) {
+      const Vec3<double> column{{sums[j], sums[3 + j], sums[6 + j]}};
+      if (const double size = norm(column); size > 1e-9)
+        for (const auto node : nodes) held[node].direction((1.0 / size) * column);
+    }
+    b.tied_nodes_.push_back(std::move(owned));
+  }
+  void tie_faces(const BoundaryInput& input) {
+    std::vector<char> moved(mesh.nodes(), 0);
+    const auto mark = [&](const std::string& name) {
+      for_each_node(mesh.face(name), [&](std::int32_t wall_node) { moved[mesh.host[wall_node]] = 1; });
+    };
+    for (const auto& [name, condition] : input.conditions)
+      if (std::holds_alternative<bc::Displacement>(condition)) mark(name);
+    for (const auto& [name, condition] : input.conditions)
+      if (bc::undeforming(condition)) {
+        tie(mesh.face(name), moved);
+        mark(name);
+      }
+  }
   void operator()(std::size_t, const bc::Free&) {}
   void operator()(std::size_t index, const bc::Symmetry&) {
     const auto& face = mesh.faces[index];
@@ -297,7 +338,11 @@ struct Boundaries::Builder {
     const auto course = waveform(c.course);
     if (c.table) {
       const auto table = parallel::agree(mesh.comm, [&] { return bc::PointTable(c); });
-      prescribe(face, course, [&](std::int32_t node) { return table.velocity(mesh.points[node]); });
+      if (table.steady())
+        prescribe(face, course, [&](std::int32_t node) { return table.velocity(mesh.points[node]); });
+      else
+        prescribe(face,
+                  [course, table](const Vec3<double>& x, double t) { return course.value(t) * table.velocity(x, t); });
       return;
     }
     prescribe(face, [course, velocity = bc::velocity_by_formula(c, mean_normal(mesh, face))](
@@ -363,6 +408,7 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   apply(symmetry);
   apply([&](const bc::Condition& c) { return !symmetry(c) && !no_slip(c); });
   apply(no_slip);
+  builder.tie_faces(input);
   for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), field);
   for (const auto& [name, field] : input.traction_fields) {
     mesh.face(name);

@@ -57,6 +57,9 @@ class Boundaries {
   /// Free motions of lumen nodes in the mesh motion: the interface is led by the wall, openings slide in their plane.
   const std::vector<assembly::NodeConstraint>& mesh_constraints() const { return mesh_constraints_; }
 
+  /// Owned nodes of every wall face that keeps its shape under its load.
+  const std::vector<std::vector<std::int32_t>>& tied_nodes() const { return tied_nodes_; }
+
   /// Sets the prescribed velocities of time t [s], and the pressure that is held, in `velocity_pressure` ([local
   /// node][4]).
   void prescribe(double t, std::span<double> velocity_pressure) const;
@@ -156,6 +159,7 @@ class Boundaries {
   std::vector<Load> loads_;
   std::vector<TractionField> traction_fields_;
   std::vector<OutletFace> outlets_;
+  std::vector<std::vector<std::int32_t>> tied_nodes_;
   std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_
   std::vector<std::int32_t> projector_of_;
   struct Inflow {

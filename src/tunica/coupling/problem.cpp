@@ -14,6 +14,7 @@
 #include "tunica/coupling/element_loops.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_model.hpp"
+#include "tunica/coupling/wall_viscosity.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::coupling {
@@ -69,7 +70,8 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
       moved_faces_(mesh, input.boundary.conditions),
       follows_wall_(mesh.nodes(), 0),
       matrix_(pattern_),
-      solver_(mesh, pattern_, isa_, krylov_settings(input.linear)) {
+      ties_(mesh.comm, boundaries_.tied_nodes()),
+      solver_(mesh, pattern_, isa_, krylov_settings(input.linear), ties_) {
   const bool lumen = has_region(mesh, mesh::RegionKind::lumen), wall = has_region(mesh, mesh::RegionKind::wall);
   if (lumen != input.fluid.has_value())
     throw InputError("fluid", lumen ? "the mesh has a lumen but the case has no fluid" : "there is no lumen to flow in",
@@ -343,6 +345,11 @@ void Problem::assemble(const State& next, const Instant& instant, bool with_tang
   float* blocks = with_tangent ? matrix_.blocks.data()->a : nullptr;
   add_lumen(instant, residual_, blocks);
   add_wall(instant, residual_, blocks);
+  // In statics nothing moves.
+  if (input_.wall && input_.wall->viscosity && instant.scheme)
+    add_wall_viscosity(mesh_, pattern_, *input_.wall->viscosity, fields(),
+                       {instant.scheme->displacement_per_unknown(), instant.scheme->velocity_per_unknown()}, residual_,
+                       with_tangent ? &matrix_ : nullptr);
 
   const LoadCoefficients loads = instant.scheme ? LoadCoefficients{instant.scheme->velocity_per_unknown(),
                                                                    instant.scheme->displacement_per_unknown()}
@@ -361,6 +368,7 @@ void Problem::assemble(const State& next, const Instant& instant, bool with_tang
   for (std::size_t k = 0; k < outlets_.size(); ++k) outlets_[k].coefficient = slopes[k];
 
   boundaries_.constraints().apply(residual_);
+  ties_.average(residual_);
   if (with_tangent) boundaries_.constraints().apply(matrix_);
 }
 
@@ -528,7 +536,8 @@ StepReport Problem::newton(const State& old_state, State& next, const Instant& i
 
 StepReport Problem::advance(State& state, double dt) {
   const TimeScheme scheme = TimeScheme::generalised_alpha(dt, input_.rho_infinity);
-  const Instant instant{scheme, state.time + scheme.alpha_f * dt, 1.0};
+  const double of_loads = input_.loads == LoadInstant::end ? 1.0 : scheme.alpha_f;
+  const Instant instant{scheme, state.time + of_loads * dt, 1.0};
   accepted_step_.reset();
   State next = state;
   next.time = state.time + dt;

@@ -38,6 +38,7 @@ struct ProblemInput {
   /// and the rate of its own time.
   VectorField mesh_displacement;
   double rho_infinity = 0.5;
+  LoadInstant loads = LoadInstant::balance;
   NewtonSettings newton;
   LinearSettings linear;
 };
@@ -125,7 +126,7 @@ class Problem {
   /// How the residual depends on the Newton unknown, and at which instant it is evaluated.
   struct Instant {
     std::optional<assembly::TimeScheme> scheme;  ///< none: statics
-    double time = 0;                             ///< t_{n+alpha_f} [s]
+    double time = 0;                             ///< of the loads [s]
     double load_factor = 1;
   };
   void evaluate_fields(const State& old_state, const State& next, const Instant& instant);
@@ -175,6 +176,7 @@ class Problem {
   std::vector<distributed::EdgeNode>
       edges_;  ///< those with nodes; in the lumen they move the mesh as the mean of their ends does
   assembly::BlockMatrix matrix_;
+  assembly::Ties ties_;
   assembly::LinearSolver solver_;
   std::optional<MeshMotion> mesh_motion_;
 

@@ -110,13 +110,20 @@ struct AdaptiveSettings {
   }
 };
 
+/// The instant of a step whose pressures and tractions act.
+enum class LoadInstant {
+  balance,  ///< t_{n+alpha_f}, where momentum is balanced: of second order in time
+  end       ///< t_{n+1}, as related codes take them: of first order
+};
+
 struct TimeSettings {
   double step = 0.0;       ///< s
   std::int64_t steps = 0;  ///< 0: not given, as there are cycles
   std::optional<CycleSettings> cycles;
   std::optional<AdaptiveSettings> adaptive;
   double rho_infinity = 0.5;  ///< spectral radius of generalised-alpha at infinite frequency
-  int max_halvings = 6;       ///< of a rejected step
+  LoadInstant loads = LoadInstant::balance;
+  int max_halvings = 6;  ///< of a rejected step
 
   /// Steps in a cycle; only with cycles.
   std::int64_t steps_per_cycle() const { return std::llround(cycles.value().period / step); }

@@ -47,6 +47,12 @@ Schema<TimeSettings> TimeSettings::schema() {
       .number("rho_infinity", &TimeSettings::rho_infinity, config::range(0, 1),
               "Spectral radius of the generalised-alpha scheme at infinite frequency: 1 no damping, 0 most")
       .by_default()
+      .choice(
+          "loads", &TimeSettings::loads, {{"balance", LoadInstant::balance}, {"end", LoadInstant::end}},
+          "Instant of a step whose pressures and tractions act: that at which momentum is balanced, of second order "
+          "in time, or the end of the step, as svFSI and svMultiPhysics take them, of first order. Outlets follow "
+          "their own equations in both")
+      .by_default()
       .integer("max_halvings", &TimeSettings::max_halvings, config::range(0, 30),
                "How often a rejected step may be halved before the run stops")
       .by_default()

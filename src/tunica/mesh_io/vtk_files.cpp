@@ -133,6 +133,22 @@ VtkCells arrays(Grid* grid, vtkCellArray* cell_array, const CellTypes& type_of, 
   return result;
 }
 
+VtkCells volume_of(vtkXMLUnstructuredGridReader* reader, const std::filesystem::path& path) {
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  return arrays(
+      grid, grid->GetCells(), [&](std::int64_t c, vtkIdType) { return grid->GetCellType(c); }, path);
+}
+
+mesh::ElementField cell_field(vtkXMLUnstructuredGridReader* reader, const std::string& name,
+                              const std::filesystem::path& path) {
+  return field_of(reader->GetOutput()->GetCellData(), reader->GetCellDataArraySelection(), "cell", name, path);
+}
+
+mesh::ElementField point_field(vtkXMLUnstructuredGridReader* reader, const std::string& name,
+                               const std::filesystem::path& path) {
+  return field_of(reader->GetOutput()->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path);
+}
+
 }  // namespace
 
 VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields,
@@ -141,18 +157,42 @@ VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<st
   auto wanted = fields;
   for (const auto* more : {&point_fields, &optional}) wanted.insert(wanted.end(), more->begin(), more->end());
   update(reader.Get(), "UnstructuredGrid", wanted, path);
-  vtkUnstructuredGrid* grid = reader->GetOutput();
-  VtkCells cells = arrays(
-      grid, grid->GetCells(), [&](std::int64_t c, vtkIdType) { return grid->GetCellType(c); }, path);
-  for (const auto& name : fields)
-    cells.fields.push_back(field_of(grid->GetCellData(), reader->GetCellDataArraySelection(), "cell", name, path));
-  for (const auto& name : point_fields)
-    cells.point_fields.push_back(
-        field_of(grid->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path));
+  VtkCells cells = volume_of(reader, path);
+  for (const auto& name : fields) cells.fields.push_back(cell_field(reader, name, path));
+  for (const auto& name : point_fields) cells.point_fields.push_back(point_field(reader, name, path));
+  auto* points = reader->GetOutput()->GetPointData();
   for (const auto& name : optional)
-    if (grid->GetPointData()->GetArray(name.c_str()))
-      cells.node_fields.push_back(
-          node_field_of(grid->GetPointData(), reader->GetPointDataArraySelection(), name, path));
+    if (points->GetArray(name.c_str()))
+      cells.node_fields.push_back(node_field_of(points, reader->GetPointDataArraySelection(), name, path));
+  return cells;
+}
+
+VtkCells read_vtk_volume_with(const std::filesystem::path& path, const std::string& array) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  update(reader.Get(), "UnstructuredGrid", {array}, path);
+  VtkCells cells = volume_of(reader, path);
+  if (reader->GetOutput()->GetPointData()->GetArray(array.c_str()) != nullptr)
+    cells.point_fields.push_back(point_field(reader, array, path));
+  else
+    cells.fields.push_back(cell_field(reader, array, path));
+  return cells;
+}
+
+VtkCells read_vtk_surface_series(const std::filesystem::path& path, const std::string& prefix) {
+  std::vector<std::string> names;
+  {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    update(reader.Get(), "PolyData", {}, path);
+    auto* present = reader->GetPointDataArraySelection();
+    for (int i = 0; i < present->GetNumberOfArrays(); ++i)
+      if (const std::string name = present->GetArrayName(i); name.starts_with(prefix)) names.push_back(name);
+  }
+  VtkCells cells = read_vtk_surface(path);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  update(reader.Get(), "PolyData", names, path);
+  for (const auto& name : names)
+    cells.point_fields.push_back(
+        field_of(reader->GetOutput()->GetPointData(), reader->GetPointDataArraySelection(), "point", name, path));
   return cells;
 }
 

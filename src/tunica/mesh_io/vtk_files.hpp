@@ -31,7 +31,11 @@ struct VtkCells {
 VtkCells read_vtk_volume(const std::filesystem::path& path, const std::vector<std::string>& fields = {},
                          const std::vector<std::string>& point_fields = {},
                          const std::vector<std::string>& optional = {});
+/// A volume with the point array of that name, or where there is none with the cell array.
+VtkCells read_vtk_volume_with(const std::filesystem::path& path, const std::string& array);
 VtkCells read_vtk_surface(const std::filesystem::path& path, const std::vector<std::string>& fields = {});
+/// The same with all point arrays whose names begin with `prefix`, of any number of components, as `point_fields`.
+VtkCells read_vtk_surface_series(const std::filesystem::path& path, const std::string& prefix);
 
 /// What a .pvtu or .pvtp file says of its pieces.
 struct VtkPieces {

@@ -12,7 +12,7 @@
 namespace tunica::peer_cases {
 
 enum class ConditionType { dirichlet, neumann, traction, robin };
-enum class Dependence { steady, unsteady, spatial, resistance, rcr, coupled };
+enum class Dependence { steady, unsteady, spatial, general, resistance, rcr, coupled };
 
 /// One condition of the main equation, and where it acts.
 struct ConditionPart {
@@ -49,6 +49,9 @@ class Conditions {
 
   void lumen_velocity(const ConditionPart& part);
   void lumen_flow(const ConditionPart& part);
+  void lumen_velocity_in_time(const ConditionPart& part);
+  void lumen_velocity_of_shape(const ConditionPart& part);
+  CaseKey& nodal_table(const ConditionPart& part, NodalVelocities velocities);
   void lumen_pressure(const ConditionPart& part);
   void outlet(const ConditionPart& part);
   void zerod_outlet(const ConditionPart& part);
@@ -61,8 +64,8 @@ class Conditions {
   CaseKey& face(const ConditionPart& part) { return boundary_.section(part.entry.label, part.entry.where()); }
   /// Value or table of a time course, in that unit; none: a factor.
   void course(const ConditionPart& part, const char* unit, CaseKey& to);
-  /// Name of the file of a table: of a load that of a copy, whose times are earlier.
-  std::string file_of(const ConditionPart& part, const Entry& file);
+  /// Path of the file of a table.
+  std::string file_of(const Entry& file);
   bool table(const ConditionPart& part, const char* unit, CaseKey& to);
   /// Axes of Effective_direction; none where it is not there, or names all.
   std::vector<int> axes(const Entry& condition) const;

@@ -27,6 +27,7 @@ void Conditions::lumen_velocity(const ConditionPart& part) {
   if (const Entry* integral = part.entry.find("Impose_on_state_variable_integral");
       integral != nullptr && context_.flag(part.entry, integral->key))
     return context_.missing(*integral, "blood whose displacement is given", "give its velocity");
+  if (profile_is(part, "User_defined")) return lumen_velocity_of_shape(part);
   if (context_.flag(part.entry, "Impose_flux")) return lumen_flow(part);
   if (!profile_is(part, "Flat"))
     return context_.missing(*part.entry.find("Profile"), "a parabolic profile that is given by its largest velocity",
@@ -41,6 +42,55 @@ void Conditions::lumen_velocity(const ConditionPart& part) {
   profile.add("length_unit", context_.units.length, "");
   if (unsteady) table(part, "", profile.section("waveform", part.entry.where()));
   context_.changed(part.entry, "the velocity is along the mean normal of the face, not along that of every node");
+}
+
+// Velocities node by node become a table of points in a file beside the case.
+CaseKey& Conditions::nodal_table(const ConditionPart& part, NodalVelocities velocities) {
+  velocities.face = part.entry.label;
+  velocities.table = part.entry.label + "_velocities.csv";
+  auto& profile = face(part).section("profile", part.entry.where());
+  profile.add("table", yaml_text(velocities.table), velocities.where);
+  profile.add("unit", "m/s", "");
+  profile.add("length_unit", "m", "");
+  profile.add("interpolation", "nearest", "the points are the nodes");
+  if (const auto period = context_.findings.periods.find(velocities.table); period != context_.findings.periods.end())
+    profile.add("period", with_unit(period->second, "s"),
+                fmt::format("the last time, as {} repeats it", context_.peer()));
+  context_.remarks.changed.push_back(velocities.where + ": the velocities are written to the file " + velocities.table);
+  context_.velocities.push_back(std::move(velocities));
+  return profile;
+}
+
+void Conditions::lumen_velocity_in_time(const ConditionPart& part) {
+  const Entry *bct = part.entry.find("Bct_file_path"), *text = part.entry.find("Temporal_and_spatial_values_file_path");
+  const Entry* file = bct != nullptr ? bct : text;
+  if (file == nullptr)
+    return context_.refuse(part.entry, "is General without a file",
+                           "give Bct_file_path or Temporal_and_spatial_values_file_path");
+  if (!axes(part.entry).empty())
+    return context_.missing(*part.entry.find("Effective_direction"),
+                            "a velocity that is given along some axes and free along others", "give all directions");
+  context_.path(*file);  // warns when it is not there
+  nodal_table(part, {.kind = bct != nullptr ? NodalVelocities::Kind::bct : NodalVelocities::Kind::in_time,
+                     .file = context_.located(*file),
+                     .face = {},
+                     .where = file->where(),
+                     .table = {}});
+}
+
+void Conditions::lumen_velocity_of_shape(const ConditionPart& part) {
+  const Entry& file = *part.entry.find("Spatial_profile_file_path");
+  context_.path(file);  // warns when it is not there
+  // solver.xml counts nodes from 0 here, .inp files from 1.
+  auto& profile = nodal_table(part, {.kind = NodalVelocities::Kind::shape,
+                                     .file = context_.located(file),
+                                     .face = {},
+                                     .where = file.where(),
+                                     .table = {},
+                                     .first_node = context_.file.dialect == Dialect::xml ? 0 : 1,
+                                     .zero_rim = context_.flag(part.entry, "Zero_out_perimeter", true),
+                                     .unit_flow = context_.flag(part.entry, "Impose_flux")});
+  course(part, "", profile.section("waveform", part.entry.where()));
 }
 
 void Conditions::lumen_flow(const ConditionPart& part) {
@@ -69,6 +119,9 @@ void Conditions::check_load(const ConditionPart& part) {
 
 void Conditions::lumen_pressure(const ConditionPart& part) {
   check_load(part);
+  if (const Entry* undeforming = part.entry.find("Undeforming_neu_face");
+      undeforming != nullptr && context_.flag(part.entry, undeforming->key))
+    return context_.refuse(*undeforming, "is for walls", "remove it");
   course(part, context_.units.pressure, face(part).section("pressure", part.entry.find("Type")->where()));
 }
 

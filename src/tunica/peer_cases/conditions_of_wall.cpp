@@ -52,7 +52,9 @@ void Conditions::add_held(const ConditionPart& part, CaseKey& load) {
 
 void Conditions::wall_pressure(const ConditionPart& part) {
   check_load(part);
-  if (part.vanishes() && part.held == nullptr) {
+  const Entry* undeforming = part.entry.find("Undeforming_neu_face");
+  if (undeforming != nullptr && !context_.flag(part.entry, undeforming->key)) undeforming = nullptr;
+  if (part.vanishes() && part.held == nullptr && undeforming == nullptr) {
     boundary_.add(part.entry.label, "free", part.entry.where() + ": Neu 0");
     return;
   }
@@ -64,6 +66,7 @@ void Conditions::wall_pressure(const ConditionPart& part) {
                problem_.coupled() ? "FSI: the load acts on the moved face"
                                   : context_.source(part.entry, "Follower_pressure_load", "false by default"));
   add_held(part, pressure);
+  if (undeforming != nullptr) pressure.add("undeforming", "true", undeforming->where());
   if (problem_.coupled())
     context_.changed(part.entry, fmt::format("the load acts on the face of the present step, in {} on that of the step "
                                              "before",

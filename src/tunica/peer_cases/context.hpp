@@ -25,7 +25,8 @@ struct Context {
   std::vector<std::string> warnings = {};
   std::optional<NodalPrestress> prestress = {};
   std::optional<InitialState> initial = {};
-  std::vector<EarlyTable> tables = {};
+  std::optional<FibreFiles> fibres = {};
+  std::vector<NodalVelocities> velocities = {};
 
   /// "svMultiPhysics", "svFSI" or "svSolver".
   const char* peer() const {

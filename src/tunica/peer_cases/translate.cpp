@@ -94,6 +94,7 @@ void translate_time(Context& context, const PosedProblem& problem, const Entry& 
     context.defaulted(general, "Spectral_radius_of_infinite_time_step",
                       fmt::format("{}, the default of {}", xml ? "0.5" : "0.2", context.peer()));
   }
+  time.add("loads", "end", fmt::format("{} puts the loads of t_n+1 into the balance of t_n+alpha_f", context.peer()));
 }
 
 // The peers take what the last of Max_iterations has left; a step that does not converge is repeated in halves by
@@ -213,8 +214,8 @@ Translation translate(PeerFile file, const UnitSystem& units, const std::filesys
     translate_output(context, general, top);
   }
   if (!context.problems.empty()) throw InputError(std::move(context.problems));
-  return {with_head(context, top), context.remarks, context.warnings,
-          context.prestress,       context.initial, context.tables};
+  return {with_head(context, top), context.remarks, context.warnings,  context.prestress,
+          context.initial,         context.fibres,  context.velocities};
 }
 
 }  // namespace tunica::peer_cases

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,31 @@ struct NodalPrestress {
 struct Findings {
   /// Has the boundary of a mesh parts that none of its faces holds? They get natural conditions.
   bool lumen_rest = false, wall_rest = false;
-  bool quadratic = false;  ///< have the tetrahedra nodes on their edges?
+  bool quadratic = false;                      ///< have the tetrahedra nodes on their edges?
+  std::optional<double> fibre_angle = {};      ///< of FibreFiles [rad]
+  std::map<std::string, double> periods = {};  ///< of NodalVelocities by their tables, where they vary in time [s]
+};
+
+/// Two families of fibres, whose directions stand in files and whose angle is to be looked up there.
+struct FibreFiles {
+  std::filesystem::path first, second;
+  std::string where;  ///< of the second, as in messages
+};
+
+/// Velocities at the nodes of a face of the lumen, in a table [m, m/s] that is to be made of a file of the peer.
+struct NodalVelocities {
+  enum class Kind {
+    bct,      ///< point arrays velocity_<time> of a .vtp file
+    in_time,  ///< a text: components, times, nodes; the times; then each node with its values
+    shape     ///< a text: node and size along the outward normal, on each line
+  };
+  Kind kind;
+  std::filesystem::path file;
+  std::string face, where;  ///< `where`: of the key, as in messages
+  std::string table;        ///< in the folder of the case
+  int first_node = 1;       ///< number of the first node of the mesh in that file
+  bool zero_rim = false;    ///< shape: zero on the rim of the face
+  bool unit_flow = false;   ///< shape: scaled to a flow of one
 };
 
 /// Fields of a mesh at the start, in files with the points of that mesh.
@@ -42,16 +67,7 @@ struct InitialFiles {
 /// The state that a run starts from, in a file of tunica that is to be made of those of the peer.
 struct InitialState {
   InitialFiles lumen, wall;
-  std::string file;             ///< in the folder of the case
-  bool outlets_follow = false;  ///< do Windkessels start from the flow and the pressure of that state?
-};
-
-/// A table of a load whose times are earlier than in the peer's file, in one that is to be made of it. The peers put
-/// the loads of t_{n+1} into the balance of t_{n+alpha_f}.
-struct EarlyTable {
-  std::filesystem::path from;
   std::string file;  ///< in the folder of the case
-  double seconds;    ///< by which it is earlier
 };
 
 struct Translation {
@@ -60,7 +76,8 @@ struct Translation {
   std::vector<std::string> warnings;  ///< files that are not there, values that look like slips
   std::optional<NodalPrestress> prestress = {};
   std::optional<InitialState> initial = {};
-  std::vector<EarlyTable> tables = {};
+  std::optional<FibreFiles> fibres = {};
+  std::vector<NodalVelocities> velocities = {};
 };
 
 /// The case file that poses the problem of `file`, for a file in `case_folder`: paths count from there. Files that it

@@ -39,13 +39,10 @@ std::optional<Dependence> time_of(Context& context, const Entry& condition) {
   if (name == "Resistance") return Dependence::resistance;
   if (name == "RCR" || name == "Windkessel") return Dependence::rcr;
   if (name == "Coupled") return Dependence::coupled;
-  const Entry& entry = *condition.find("Time_dependence");
-  if (name == "General")
-    context.missing(entry, "values given node by node and instant by instant",
-                    "use a Profile and Temporal_values_file_path");
-  else
-    context.refuse(entry, fmt::format("is `{}`, which {} does not have", text::printable(name), context.peer()),
-                   "write Steady, Unsteady, Spatial, Resistance, RCR or Coupled");
+  if (name == "General") return Dependence::general;
+  context.refuse(*condition.find("Time_dependence"),
+                 fmt::format("is `{}`, which {} does not have", text::printable(name), context.peer()),
+                 "write Steady, Unsteady, Spatial, General, Resistance, RCR or Coupled");
   return std::nullopt;
 }
 
@@ -59,23 +56,10 @@ std::string names_of(const std::vector<int>& axes) {
 
 // --- time courses -------------------------------------------------------------------------------------------------
 
-std::string Conditions::file_of(const ConditionPart& part, const Entry& file) {
-  const std::string path = context_.path(file);
+std::string Conditions::file_of(const Entry& file) {
   if (context_.file.dialect == Dialect::xml && holds_fortran_exponents(context_.located(file)))
     context_.refuse(file, "holds numbers such as 1.5D-4, of which svMultiPhysics reads 1.5", "write 1.5e-4");
-  const Entry* general = context_.file.root.find("GeneralSimulationParameters");
-  const double step = general == nullptr ? 0 : context_.number(*general, "Time_step_size").value_or(0);
-  if ((part.type != ConditionType::neumann && part.type != ConditionType::traction) || !(step > 0)) return path;
-  const double radius = context_.number(*general, "Spectral_radius_of_infinite_time_step")
-                            .value_or(context_.file.dialect == Dialect::xml ? 0.5 : 0.2);
-  const std::filesystem::path from = context_.located(file);
-  EarlyTable table{from, from.stem().string() + "_early" + from.extension().string(), radius / (1 + radius) * step};
-  context_.changed(file, fmt::format("the file {} has its times earlier by {:.6g} of a step: {} puts the loads of "
-                                     "t_n+1 into the balance of t_n+alpha_f",
-                                     table.file, radius / (1 + radius), context_.peer()));
-  std::string name = yaml_text(table.file);
-  context_.tables.push_back(std::move(table));
-  return name;
+  return context_.path(file);
 }
 
 bool Conditions::table(const ConditionPart& part, const char* unit, CaseKey& to) {
@@ -90,7 +74,7 @@ bool Conditions::table(const ConditionPart& part, const char* unit, CaseKey& to)
   const bool ramp = values != nullptr && context_.flag(part.entry, "Ramp_function");
   const std::string where = file->where();
   auto& table = to.section("table", where);
-  table.add("file", file_of(part, *file), where);
+  table.add("file", file_of(*file), where);
   table.add("format", values != nullptr ? "simvascular" : "fourier", where);
   table.add("time_unit", "s", "");
   if (*unit != '\0') table.add("unit", unit, fmt::format("--units {}", context_.units.name));
@@ -181,13 +165,15 @@ void Conditions::translate(const Entry& condition) {
   if (!part) return;
   const std::string profile = context_.text(condition, "Profile", "Flat");
   if (profile != "Flat" && profile != "Parabolic") {
+    const Entry& entry = *condition.find("Profile");
     if (profile != "User_defined")
-      context_.refuse(*condition.find("Profile"),
-                      fmt::format("is `{}`, which {} does not have", text::printable(profile), context_.peer()),
-                      "write Flat or Parabolic");
-    else if (condition.find("Spatial_profile_file_path") == nullptr)
-      context_.missing(*condition.find("Profile"), "a profile given node by node", "write Flat or Parabolic");
-    return;
+      return context_.refuse(entry,
+                             fmt::format("is `{}`, which {} does not have", text::printable(profile), context_.peer()),
+                             "write Flat, Parabolic or User_defined");
+    if (!part->face.lumen || part->type != ConditionType::dirichlet)
+      return context_.missing(entry, "a load or a motion of the wall with a profile given node by node", "write Flat");
+    if (condition.find("Spatial_profile_file_path") == nullptr)
+      return context_.refuse(entry, "is User_defined without a file", "give Spatial_profile_file_path");
   }
   if (part->value.size() > 1 && part->type != ConditionType::traction)
     return context_.refuse(*condition.find("Value"), fmt::format("has {} components", part->value.size()),
@@ -203,6 +189,12 @@ void Conditions::translate(const ConditionPart& part) {
                ? zerod_outlet(part)
                : context_.missing(part.entry, "a wall that is loaded by a zero-dimensional model", "give the pressure");
   if (part.time == Dependence::spatial) return pressure_by_nodes(part);
+  if (part.time == Dependence::general) {
+    if (blood && part.type == ConditionType::dirichlet) return lumen_velocity_in_time(part);
+    return context_.missing(*part.entry.find("Time_dependence"),
+                            "pressures, tractions and motions of walls given node by node and instant by instant",
+                            "use Spatial_values_file_path or Temporal_values_file_path");
+  }
   if (outlets && (!blood || part.type != ConditionType::neumann))
     return context_.refuse(*part.entry.find("Time_dependence"), "is for Neu conditions of the blood", "write Steady");
   if (outlets) return outlet(part);

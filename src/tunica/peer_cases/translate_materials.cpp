@@ -201,23 +201,22 @@ std::optional<Directions> read_directions(const Context& context, const std::vec
   return d;
 }
 
-/// The angle of the second family of fibres from the first, which is the direction e1 of the frame; none where it is
-/// not known, which translate_frame() reports of directions.
-std::optional<double> angle_of_families(Context& context, const PosedProblem& problem, const Entry& law) {
-  const auto entries = problem.wall->all("Fiber_direction");
+/// The angle of the second family of fibres from the first, which is the direction e1 of the frame [rad]; 0 where it is
+/// not known: of files until these have been looked at, else translate_frame() reports it.
+double angle_of_families(Context& context, const PosedProblem& problem) {
+  const auto entries = problem.wall->all("Fiber_direction"), files = problem.wall->all("Fiber_direction_file_path");
   if (entries.size() == 2) {
     const auto d = read_directions(context, entries);
-    if (d) return std::acos(std::clamp(d->cosine, -1.0, 1.0));
+    return d ? std::acos(std::clamp(d->cosine, -1.0, 1.0)) : 0.0;
   }
-  if (problem.wall->all("Fiber_direction_file_path").size() == 2)
-    context.missing(law, "two families of fibres whose angle differs from element to element",
-                    "give the directions by Fiber_direction, or write the case file with a frame of its own");
-  return std::nullopt;
+  if (files.size() != 2) return 0.0;
+  context.fibres = FibreFiles{context.located(*files[0]), context.located(*files[1]), files[1]->where()};
+  return context.findings.fibre_angle.value_or(0.0);
 }
 
 void translate_hgo(Context& context, const PosedProblem& problem, const Entry& law, const Constants& c,
                    CaseKey& material) {
-  const auto angle = angle_of_families(context, problem, law);
+  const double angle = angle_of_families(context, problem);
   auto& section = material.section("goh", law.where() + " " + law.label);
   add_constants(context, c, section);
   section.add("exclusion", "none", fmt::format("{} counts fibres under compression", context.peer()));
@@ -226,7 +225,7 @@ void translate_hgo(Context& context, const PosedProblem& problem, const Entry& l
   constexpr const char* keys[2][2] = {{"a4", "b4"}, {"a6", "b6"}};
   for (int f = 0; f < 2; ++f) {
     auto& family = families.section("", fmt::format("family {}: k1 = {}, k2 = {}", f + 1, keys[f][0], keys[f][1]));
-    family.add("mean_angle", with_unit(f == 0 ? 0.0 : angle.value_or(0.0), "rad"),
+    family.add("mean_angle", with_unit(f == 0 ? 0.0 : angle, "rad"),
                f == 0 ? "along the first fibre direction" : "of the second fibre direction from the first");
     add_required(context, law, "kappa", "", family, "kappa");
     add_required(context, law, keys[f][0], context.units.pressure, family, "k1");
@@ -390,10 +389,33 @@ void translate_frame(Context& context, const PosedProblem& problem, bool orthotr
   frame.add("e2", "fibre_2", files[1]->where() + ", its part along e1 is taken off");
 }
 
-void refuse_wall_viscosity(Context& context, const DomainPart& part) {
-  const Entry* viscosity = part.properties->find("Viscosity");
-  if (viscosity != nullptr && context.number(*viscosity, "Value").value_or(0) != 0)
-    context.missing(*viscosity, fmt::format("viscosity of the wall ({})", viscosity->label), "remove the section");
+/// Of all domains of the wall alike.
+void translate_wall_viscosity(Context& context, const PosedProblem& problem, CaseKey& wall) {
+  const Entry* first = nullptr;
+  for (const DomainPart& part : problem.walls) {
+    const Entry* viscosity = part.properties->find("Viscosity");
+    if (viscosity != nullptr && context.number(*viscosity, "Value").value_or(0) == 0) viscosity = nullptr;
+    if (&part == &problem.walls[0]) first = viscosity;
+    const bool same =
+        (viscosity == nullptr) == (first == nullptr) &&
+        (viscosity == nullptr ||
+         (viscosity->label == first->label && context.number(*viscosity, "Value") == context.number(*first, "Value")));
+    if (!same)
+      context.missing(viscosity != nullptr ? *viscosity : *part.properties, "walls with a viscosity of each Domain",
+                      "give all Domains of the wall the same Viscosity");
+  }
+  if (first == nullptr) return;
+  const std::string model = text::lower(first->label);
+  const bool potential = model == "potential" || model == "pot";
+  if (!potential && model != "newtonian" && model != "newt")
+    return context.refuse(*first,
+                          fmt::format("is of the model `{}`, which {} does not have for walls",
+                                      text::printable(first->label), context.peer()),
+                          "write Newtonian or Potential");
+  auto& viscosity = wall.section("viscosity", first->where() + " " + first->label);
+  viscosity.add("value", context.quantity(*first->find("Value"), context.units.viscosity),
+                first->find("Value")->where());
+  viscosity.add("law", potential ? "potential" : "newtonian", "");
 }
 
 void translate_density(Context& context, const PosedProblem& problem, const DomainPart& part, CaseKey& to) {
@@ -464,13 +486,13 @@ void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top)
         fibres |= needs_fibres(*known.law);
         orthotropic |= is_orthotropic(*known.law);
       }
-    refuse_wall_viscosity(context, part);
     for (const char* key : {"Momentum_stabilization_coefficient", "Continuity_stabilization_coefficient"})
       if (context.number(*part.properties, key).value_or(0) != 0)
         context.changed(*part.properties->find(key), "tunica's mixed element has a stabilisation of its own");
   }
   translate_law(context, problem, first, wall);
   translate_volumetric(context, problem, wall);
+  translate_wall_viscosity(context, problem, wall);
   if (problem.walls.size() > 1) {
     auto& regions = wall.section("regions", "");
     for (std::size_t i = 0; i < problem.walls.size(); ++i) {

@@ -61,7 +61,6 @@ void translate_start(Context& context, const PosedProblem& problem, CaseKey& top
   if (massless(context, problem))
     return context.missing(mesh, "initial fields of a wall without mass", "remove them, or write the density");
   state.file = context.file.path.stem().string() + "_start.checkpoint";
-  state.outlets_follow = context.flag(*problem.main, "Initialize_RCR_from_flow");
   top.add("start", yaml_text(state.file), sources);
   context.changed(mesh, "the initial fields are written to the file " + state.file);
   context.initial = std::move(state);

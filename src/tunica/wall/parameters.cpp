@@ -85,6 +85,18 @@ config::Schema<VolumetricEnergy> volumetric_energy_schema() {
       .by_default();
 }
 
+config::Schema<Viscosity> Viscosity::schema() {
+  return config::Schema<Viscosity>("viscosity", "Viscous stress of the wall, beside that of its law (Kelvin-Voigt).")
+      .quantity("value", &Viscosity::value, config::dimension::dynamic_viscosity, config::at_least(0), "eta")
+      .plausible("0.1 Pa s", "1e5 Pa s")
+      .choice(
+          "law", &Viscosity::law, {{"newtonian", Law::newtonian}, {"potential", Law::potential}},
+          "Cauchy stress 2 eta dev d with the rate of deformation d, or second Piola-Kirchhoff stress eta dE/dt with "
+          "the Green-Lagrange strain E")
+      .by_default()
+      .shorthand("value");
+}
+
 config::Schema<Parameters> Parameters::schema() {
   return config::Schema<Parameters>("wall", "Solid wall.")
       .choice("element", &Parameters::element, {{"mixed", Element::mixed}, {"displacement", Element::displacement}},
@@ -104,6 +116,8 @@ config::Schema<Parameters> Parameters::schema() {
           "it jumps")
       .section("fibre_frame", &Parameters::fibre_frame, frame_schema(),
                "Circumferential, longitudinal and radial direction; for laws with fibres")
+      .section("viscosity", &Parameters::viscosity, Viscosity::schema(),
+               "Kelvin-Voigt: viscous stress beside that of the laws; none when left out, and in statics")
       .path("prestress", &Parameters::prestress,
             "Prestress of the imaged shape: the file wall.vtu that `tunica prestress` has written")
       .include(&Parameters::volumetric_energy, volumetric_energy_schema())

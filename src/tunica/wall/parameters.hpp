@@ -11,6 +11,7 @@
 #include "tunica/wall/element.hpp"
 #include "tunica/wall/fibre_frame.hpp"
 #include "tunica/wall/material.hpp"
+#include "tunica/wall/viscosity.hpp"
 
 namespace tunica::wall {
 
@@ -41,6 +42,7 @@ struct Parameters {
   std::optional<std::filesystem::path> prestress;  ///< file of `tunica prestress`
   VolumetricEnergy volumetric_energy = VolumetricEnergy::simo_taylor;
   double stabilisation = default_stabilisation;  ///< c in tau_u = c h^2 / mu [-]
+  std::optional<Viscosity> viscosity;
 
   /// Cell arrays that directions and compositions are read from.
   std::vector<std::string> cell_arrays() const;

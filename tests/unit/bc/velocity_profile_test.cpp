@@ -62,6 +62,52 @@ TEST_F(ProfileTable, NearestTakesOnePoint) {
   EXPECT_LE(norm(PointTable(profile_).velocity({{1.4, 2.4, 0.5}}) - Vec3<double>{{1, 0, 6}}), 1e-12);
 }
 
+class ProfileInTime : public ProfileTable {
+ protected:
+  /// Two points at x = 0 and 1; the velocity of the second is twice that of the first, `speeds` at `times`.
+  void write(const std::vector<double>& times, const std::vector<double>& speeds, int last_points = 2) {
+    std::ofstream out(file_);
+    out << "t,x,y,z,vx,vy,vz\n";
+    for (std::size_t k = 0; k < times.size(); ++k)
+      for (int i = 0; i < (k + 1 == times.size() ? last_points : 2); ++i)
+        out << times[k] << ',' << i << ",0,0," << (1 + i) * speeds[k] << ",0,0\n";
+    out.close();
+    profile_.interpolation = VelocityProfile::Interpolation::nearest;
+  }
+  double speed(double x, double t) const { return PointTable(profile_).velocity({{x, 0, 0}}, t)[0]; }
+};
+
+TEST_F(ProfileInTime, IsLinearBetweenTimesAndHoldsItsEnds) {
+  write({0, 0.2, 0.6}, {1, 3, 7});
+  EXPECT_FALSE(PointTable(profile_).steady());
+  EXPECT_DOUBLE_EQ(speed(0.1, 0.1), 2);
+  EXPECT_DOUBLE_EQ(speed(0.9, 0.5), 12);
+  EXPECT_DOUBLE_EQ(speed(0, 0.6), 7);
+  EXPECT_DOUBLE_EQ(speed(0, 9), 7);
+  EXPECT_DOUBLE_EQ(speed(0, -1), 1);
+}
+
+TEST_F(ProfileInTime, RepeatsItselfWithAPeriod) {
+  write({0, 0.2, 0.6}, {1, 3, 7});
+  profile_.period = 0.6;
+  EXPECT_NEAR(speed(0, 0.7), 2, 1e-12);
+  EXPECT_NEAR(speed(0, 6.3), 4, 1e-12);
+  profile_.period = 1.0;  // between the last time and the next period the velocity goes back to its start
+  EXPECT_NEAR(speed(0, 0.8), 4, 1e-12);
+  EXPECT_NEAR(speed(0, 1.1), 2, 1e-12);
+  profile_.period = 0.5;
+  EXPECT_THROW(PointTable{profile_}, InputError);
+}
+
+TEST_F(ProfileInTime, RefusesOtherPointsAndTimesThatGoBack) {
+  write({0, 0.2}, {1, 3}, 1);
+  EXPECT_THROW(PointTable{profile_}, InputError);
+  write({0.2, 0.1}, {1, 3});
+  EXPECT_THROW(PointTable{profile_}, InputError);
+  write({0, 0.2}, {1, 3}, 3);
+  EXPECT_THROW(PointTable{profile_}, InputError);
+}
+
 TEST_F(ProfileTable, RefusesPlacesFarAway) {
   EXPECT_THROW(PointTable(profile_).velocity({{100, 0, 0}}), InputError);
   profile_.length_unit = 1e-3;

@@ -90,18 +90,19 @@ std::string joined(const std::vector<std::string>& lines) {
 
 TEST(Translate, WritesAFlow) {
   const auto translation = translated(flow({}));
-  EXPECT_EQ(plain(translation),
-            "title: solver.xml\nelements: linear\nanalysis: flow\nmeshes:\n  length_unit: cm\n  lumen:\n    volume: "
-            "m/volume.vtu\n"
-            "    faces:\n      in: m/in.vtp\n      out: m/out.vtp\n      side: m/side.vtp\nfluid:\n"
-            "  density: 1.06 g/cm^3\n  viscosity:\n    newtonian:\n      viscosity: 0.04 dyn s/cm^2\n  stabilisation: "
-            "vms_classic\nboundary:\n"
-            "  in:\n    flow:\n      value: -10 cm^3/s\n      positive: outflow\n      profile: flat\n"
-            "  out:\n    resistance:\n      resistance: 1212 dyn s/cm^5\n  side:\n    no_slip: {}\n"
-            "time:\n  step: 0.005 s\n  steps: 2\n  rho_infinity: 0.5\nnewton:\n  relative_tolerance: 1e-05\n"
-            "output:\n  instant: end\n  units:\n    length: cm\n    velocity: cm/s\n    pressure: dyn/cm^2\n    "
-            "stress: dyn/cm^2\n"
-            "    flow: cm^3/s\n");
+  EXPECT_EQ(
+      plain(translation),
+      "title: solver.xml\nelements: linear\nanalysis: flow\nmeshes:\n  length_unit: cm\n  lumen:\n    volume: "
+      "m/volume.vtu\n"
+      "    faces:\n      in: m/in.vtp\n      out: m/out.vtp\n      side: m/side.vtp\nfluid:\n"
+      "  density: 1.06 g/cm^3\n  viscosity:\n    newtonian:\n      viscosity: 0.04 dyn s/cm^2\n  stabilisation: "
+      "vms_classic\nboundary:\n"
+      "  in:\n    flow:\n      value: -10 cm^3/s\n      positive: outflow\n      profile: flat\n"
+      "  out:\n    resistance:\n      resistance: 1212 dyn s/cm^5\n  side:\n    no_slip: {}\n"
+      "time:\n  step: 0.005 s\n  steps: 2\n  rho_infinity: 0.5\n  loads: end\nnewton:\n  relative_tolerance: 1e-05\n"
+      "output:\n  instant: end\n  units:\n    length: cm\n    velocity: cm/s\n    pressure: dyn/cm^2\n    "
+      "stress: dyn/cm^2\n"
+      "    flow: cm^3/s\n");
   EXPECT_TRUE(has(translation.yaml, "density: 1.06 g/cm^3                          # solver.xml:6 Density"));
   EXPECT_TRUE(has(joined(translation.remarks.dropped), "Max_iterations"));
   EXPECT_TRUE(has(joined(translation.remarks.defaults), "Backflow_stabilization_coefficient: 0.2"));
@@ -158,7 +159,7 @@ TEST(Translate, ReadsTimeCourses) {
       "<Type>Neu</Type><Time_dependence>Unsteady</Time_dependence>"
       "<Temporal_values_file_path>p.dat</Temporal_values_file_path><Ramp_function>true</Ramp_function>";
   EXPECT_TRUE(has(plain(translated(flow(parts))),
-                  "pressure:\n      table:\n        file: p_early.dat\n        format: "
+                  "pressure:\n      table:\n        file: p.dat\n        format: "
                   "simvascular\n        time_unit: s\n        unit: dyn/cm^2\n        "
                   "interpolation: ramp\n"));
   parts.inlet =
@@ -314,10 +315,78 @@ TEST(Translate, LetsLoadsActAsThePeerDoes) {
       translated(wall(elastic,
                       "<Type>Neu</Type><Time_dependence>Unsteady</Time_dependence><Ramp_function>true</Ramp_function>"
                       "<Temporal_values_file_path>load.dat</Temporal_values_file_path>"));
-  EXPECT_TRUE(has(plain(translation), "file: load_early.dat\n"));
-  ASSERT_EQ(translation.tables.size(), 1u);
-  EXPECT_EQ(translation.tables[0].from, "case/load.dat");
-  EXPECT_DOUBLE_EQ(translation.tables[0].seconds, 0.1 / 3);
+  EXPECT_TRUE(has(plain(translation), "file: load.dat\n"));
+  EXPECT_TRUE(has(plain(translation), "  loads: end\n"));
+}
+
+TEST(Translate, TakesAFaceThatMovesAsAWhole) {
+  const std::string keys = "<Type>Neu</Type><Value>5</Value><Undeforming_neu_face>true</Undeforming_neu_face>";
+  EXPECT_TRUE(has(plain(translated(wall(elastic, keys, "ustruct"))),
+                  "pressure:\n      value: 5 dyn/cm^2\n      follower: false\n      undeforming: true\n"));
+  const std::string unloaded = "<Type>Neu</Type><Value>0</Value><Undeforming_neu_face>true</Undeforming_neu_face>";
+  EXPECT_TRUE(has(plain(translated(wall(elastic, unloaded, "ustruct"))), "undeforming: true\n"));
+  const std::string off = "<Type>Neu</Type><Value>5</Value><Undeforming_neu_face>false</Undeforming_neu_face>";
+  EXPECT_EQ(plain(translated(wall(elastic, off, "ustruct"))).find("undeforming"), std::string::npos);
+  FlowParts parts;
+  parts.outlet = keys;
+  EXPECT_TRUE(has(refused(flow(parts)), "Undeforming_neu_face: is for walls"));
+}
+
+TEST(Translate, TakesTheViscosityOfAWall) {
+  const std::string viscous = std::string(elastic) + "<Viscosity model=\"Newtonian\"><Value>50.0</Value></Viscosity>";
+  EXPECT_TRUE(has(plain(translated(wall(viscous, pressure))),
+                  "  viscosity:\n    value: 50.0 dyn s/cm^2\n    law: newtonian\n"));
+  const std::string potential = std::string(elastic) + "<Viscosity model=\"Pot\"><Value>5</Value></Viscosity>";
+  EXPECT_TRUE(has(plain(translated(wall(potential, pressure))), "law: potential\n"));
+  const std::string none = std::string(elastic) + "<Viscosity model=\"Newtonian\"><Value>0</Value></Viscosity>";
+  EXPECT_EQ(plain(translated(wall(none, pressure))).find("viscosity"), std::string::npos);
+  const std::string other = std::string(elastic) + "<Viscosity model=\"Cassons\"><Value>5</Value></Viscosity>";
+  EXPECT_TRUE(has(refused(wall(other, pressure)), "which svMultiPhysics does not have for walls"));
+}
+
+TEST(Translate, TakesVelocitiesNodeByNode) {
+  FlowParts parts;
+  parts.inlet = "<Type>Dir</Type><Time_dependence>General</Time_dependence><Bct_file_path>bct.vtp</Bct_file_path>";
+  const auto bct = translated(flow(parts));
+  EXPECT_TRUE(has(plain(bct),
+                  "in:\n    profile:\n      table: in_velocities.csv\n      unit: m/s\n      length_unit: m\n      "
+                  "interpolation: nearest\n"));
+  ASSERT_EQ(bct.velocities.size(), 1u);
+  EXPECT_EQ(bct.velocities[0].file, "case/bct.vtp");
+  EXPECT_EQ(bct.velocities[0].kind, NodalVelocities::Kind::bct);
+  const auto looked = translate(read_xml(flow(parts), "case/solver.xml"), unit_system("cgs"), "case",
+                                {.periods = {{"in_velocities.csv", 0.8}}});
+  EXPECT_TRUE(has(plain(looked), "period: 0.8 s\n"));
+  parts.inlet =
+      "<Type>Dir</Type><Time_dependence>General</Time_dependence>"
+      "<Temporal_and_spatial_values_file_path>v.dat</Temporal_and_spatial_values_file_path>";
+  EXPECT_EQ(translated(flow(parts)).velocities.at(0).kind, NodalVelocities::Kind::in_time);
+  parts.inlet =
+      "<Type>Dir</Type><Value>-3</Value><Profile>User_defined</Profile><Impose_flux>true</Impose_flux>"
+      "<Spatial_profile_file_path>shape.dat</Spatial_profile_file_path>";
+  const auto shape = translated(flow(parts));
+  EXPECT_TRUE(has(plain(shape), "interpolation: nearest\n      waveform:\n        value: -3\n"));
+  EXPECT_TRUE(shape.velocities.at(0).unit_flow);
+  EXPECT_TRUE(shape.velocities.at(0).zero_rim);
+  EXPECT_EQ(shape.velocities.at(0).first_node, 0);
+  parts.inlet = "<Type>Dir</Type><Time_dependence>General</Time_dependence>";
+  EXPECT_TRUE(has(refused(flow(parts)), "is General without a file"));
+  parts.inlet = "<Type>Neu</Type><Time_dependence>General</Time_dependence><Bct_file_path>bct.vtp</Bct_file_path>";
+  EXPECT_TRUE(has(refused(flow(parts)), "Time_dependence: asks for what tunica does not have: pressures"));
+}
+
+TEST(Translate, TakesTheAngleOfFibresInFiles) {
+  const std::string law = std::string(elastic) +
+                          "<Constitutive_model type=\"HGO\"><a4>1</a4><b4>2</b4><a6>1</a6><b6>2</b6><kappa>0.1</kappa>"
+                          "</Constitutive_model>";
+  const std::string xml = wall(law, pressure, "struct",
+                               "<Fiber_direction_file_path>f1.vtu</Fiber_direction_file_path>"
+                               "<Fiber_direction_file_path>f2.vtu</Fiber_direction_file_path>");
+  const auto first = translated(xml);
+  ASSERT_TRUE(first.fibres.has_value());
+  EXPECT_EQ(first.fibres->second, "case/f2.vtu");
+  const auto looked = translate(read_xml(xml, "case/solver.xml"), unit_system("cgs"), "case", {.fibre_angle = 1.25});
+  EXPECT_TRUE(has(plain(looked), "mean_angle: 1.25 rad\n"));
 }
 
 TEST(Translate, WritesALoadByNodesAsSurroundingsWithoutStiffness) {
@@ -355,7 +424,6 @@ TEST(Translate, StartsFromInitialFields) {
   EXPECT_EQ(plain(translation).find("initial_pressure"), std::string::npos);
   ASSERT_TRUE(translation.initial);
   EXPECT_EQ(translation.initial->lumen.velocity, "case/i/v.vtu");
-  EXPECT_TRUE(translation.initial->outlets_follow);
   parts.mesh = "";
   EXPECT_TRUE(has(plain(translated(flow(parts))), "initial_pressure: 0 dyn/cm^2\n"));
   parts.mesh = "<Initial_displacements_file_path>u.vtu</Initial_displacements_file_path>";

@@ -60,6 +60,24 @@ TEST_F(NodalPrestress, GivesEachElementTheLinearFunctionAtItsMiddle) {
   }
 }
 
+TEST_F(NodalPrestress, OfCellsIsTakenAsItIs) {
+  VolumeArray array{.name = "Stress", .of = VolumeArray::Of::elements, .components = 6};
+  for (std::size_t k = 0; k < 6 * wall.tetrahedra.size(); ++k) array.values.push_back(static_cast<double>(k));
+  mesh_io::write_volume_array(folder.path() / "nodal.vtu", wall, RegionKind::wall, 0.01, array);
+  convert();
+  auto data = wall;
+  artifacts::read_prestress(folder.path() / "wall.vtu", data, 1);
+  for (std::size_t k = 0; k < 6 * wall.tetrahedra.size(); ++k)
+    EXPECT_DOUBLE_EQ(data.fields.at(0).values[k], 0.1 * static_cast<double>(k));
+}
+
+TEST_F(NodalPrestress, WithoutTheArrayIsAnError) {
+  VolumeArray array{.name = "Other", .of = VolumeArray::Of::elements, .components = 6};
+  array.values.assign(6 * wall.tetrahedra.size(), 1.0);
+  mesh_io::write_volume_array(folder.path() / "nodal.vtu", wall, RegionKind::wall, 0.01, array);
+  EXPECT_NE(test::message_of<InputError>([&] { convert(); }).find("called Stress"), std::string::npos);
+}
+
 TEST_F(NodalPrestress, OfAnotherWallIsAnError) {
   write(1.01);
   EXPECT_THROW(convert(), InputError);

@@ -75,8 +75,82 @@ std::vector<std::int64_t> steps_of(const case_file::Case& c, const std::vector<d
   return steps;
 }
 
+/// Integrals over the domains, which are the regions of the mesh, at every instant of the fields.
+class VolumeFiles {
+ public:
+  VolumeFiles(const case_file::Case& c, const mesh::MeshData& data, const Units& units)
+      : fluid_(c.solves_fluid()), wall_(c.solves_wall()), data_(data), units_(units) {
+    for (const auto& region : data.regions) initial_.push_back(integrals(region, {}));
+  }
+
+  void add(std::int64_t step, const analysis::FieldFrame& frame) {
+    std::string pressures, jacobians;
+    for (std::size_t r = 0; r < data_.regions.size(); ++r) {
+      const auto now = integrals(data_.regions[r], frame);
+      const bool lumen = data_.regions[r].kind == mesh::RegionKind::lumen;
+      (lumen ? pressures : jacobians) += fmt::format(
+          " {:.10e} ", lumen ? now.pressure / now.volume / units_.pressure : now.volume / initial_[r].volume);
+    }
+    const std::string start = fmt::format(" {}   {:.10e} ", step, frame.time);
+    pressures_ += start + pressures + "\n";
+    jacobians_ += start + jacobians + "\n";
+  }
+
+  std::vector<std::string> write(const fs::path& folder) const {
+    std::vector<std::string> files;
+    const auto put = [&](const std::string& name, mesh::RegionKind kind, const std::string& lines) {
+      files::write_atomically(folder / name, head(kind) + lines);
+      files.push_back(name);
+    };
+    if (fluid_) put(wall_ ? "V_FS_Pressure_flux.txt" : "V_NS_Pressure_flux.txt", mesh::RegionKind::lumen, pressures_);
+    if (wall_) put(fluid_ ? "V_FS_Jacobian_flux.txt" : "V_ST_Jacobian_flux.txt", mesh::RegionKind::wall, jacobians_);
+    return files;
+  }
+
+ private:
+  struct Integrals {
+    double volume = 0, pressure = 0;
+  };
+  /// Of the moved corners.
+  Integrals integrals(const mesh::RegionData& region, const analysis::FieldFrame& frame) const {
+    Integrals sum;
+    for (auto e = region.first_element; e < region.end_element; ++e) {
+      Vec3<double> x[4];
+      double pressure = 0;
+      for (std::size_t a = 0; a < 4; ++a) {
+        const auto n = static_cast<std::size_t>(data_.tetrahedra[static_cast<std::size_t>(e)][a]);
+        x[a] = data_.points[n];
+        for (int i = 0; i < 3 && !frame.displacement.empty(); ++i)
+          x[a][i] += frame.displacement[3 * n + static_cast<std::size_t>(i)];
+        if (!frame.pressure.empty()) pressure += frame.pressure[n] / 4;
+      }
+      const double volume = dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
+      sum.volume += volume, sum.pressure += volume * pressure;
+    }
+    return sum;
+  }
+  std::string head(mesh::RegionKind kind) const {
+    std::string volumes, names;
+    for (std::size_t r = 0; r < data_.regions.size(); ++r)
+      if (data_.regions[r].kind == kind) {
+        volumes += fmt::format(" {:4.3e} ", initial_[r].volume / (units_.length * units_.length * units_.length));
+        names += data_.regions[r].name + " ";
+      }
+    return "# Volume integrals of tunica in the form of svMultiPhysics: domain volumes, then step, time, means of the "
+           "domains\ndomain volumes: " +
+           volumes + "\nstep   time  " + names + "\n";
+  }
+
+  bool fluid_, wall_;
+  const mesh::MeshData& data_;
+  const Units& units_;
+  std::vector<Integrals> initial_;
+  std::string pressures_, jacobians_;
+};
+
 std::vector<std::string> write_fields(const case_file::Case& c, const mesh::MeshData& data, const Units& units,
                                       const fs::path& folder) {
+  VolumeFiles volumes(c, data, units);
   analysis::FieldSeries series(case_file::describe(c), data, c.output.directory);
   const auto steps = steps_of(c, series.times());
   const auto grid = shape_of(data, units.length);
@@ -95,7 +169,9 @@ std::vector<std::string> write_fields(const case_file::Case& c, const mesh::Mesh
     writer->SetCompressorTypeToZLib();
     files.push_back(fmt::format("result_{:03}.vtu", steps[f]));
     mesh_io::write_vtk(*writer, folder / files.back());
+    volumes.add(steps[f], frame);
   }
+  for (auto& file : volumes.write(folder)) files.push_back(std::move(file));
   return files;
 }
 

@@ -9,9 +9,10 @@
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/peer_cases/translate.hpp"
-#include "tunica/stages/import/early_table.hpp"
+#include "tunica/stages/import/fibre_angle.hpp"
 #include "tunica/stages/import/initial_state.hpp"
 #include "tunica/stages/import/nodal_prestress.hpp"
+#include "tunica/stages/import/nodal_velocities.hpp"
 
 namespace tunica::stages {
 
@@ -55,6 +56,43 @@ peer_cases::Findings look_at_meshes(case_file::Case c, std::vector<std::string>&
   return found;
 }
 
+bool is_file(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(path, none);
+}
+
+/// The angle that a law needs, and without the files there is no case.
+void look_at_fibres(const std::optional<peer_cases::FibreFiles>& fibres, peer_cases::Findings& found) {
+  if (!fibres) return;
+  if (!is_file(fibres->first) || !is_file(fibres->second))
+    throw InputError(fibres->where, "is not there, or that of the first family: the angle between them stands in both",
+                     "import where both files are");
+  found.fibre_angle = fibre_angle(*fibres);
+}
+
+/// Tables of velocities, by their files in the folder of the case.
+struct VelocityTables {
+  mesh::MeshData lumen;
+  std::vector<std::pair<std::string, VelocityTable>> tables;
+};
+
+/// Those whose files and mesh are there; notes their periods.
+VelocityTables read_velocities(const std::vector<peer_cases::NodalVelocities>& all, const case_file::Case& c,
+                               const peer_cases::UnitSystem& units, peer_cases::Findings& found) {
+  if (all.empty() || !c.meshes.lumen || !all_there(c.meshes.lumen->files)) return {};
+  case_file::MeshSettings meshes = c.meshes;
+  meshes.wall.reset();
+  meshes.interface.reset();
+  VelocityTables read{artifacts::load_meshes(meshes, {}).data, {}};
+  for (const auto& wanted : all) {
+    if (!is_file(wanted.file)) continue;
+    auto table = read_nodal_velocities(wanted, read.lumen, meshes.metres(), units);
+    if (!table.times.empty()) found.periods[wanted.table] = table.times.back();
+    read.tables.emplace_back(wanted.table, std::move(table));
+  }
+  return read;
+}
+
 /// The case that the text poses, with warnings of values that look like slips. What it does not take is a value beyond
 /// its range, which the peer's file holds.
 config::Parsed<case_file::Case> read(const std::string& yaml, const fs::path& file) {
@@ -65,22 +103,6 @@ config::Parsed<case_file::Case> read(const std::string& yaml, const fs::path& fi
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.where += ", of the case file that would be written";
     throw InputError(std::move(problems));
-  }
-}
-
-/// The tables of loads; one that does not read is none, and can be put in its place later, as one that is missing.
-void write_tables(const peer_cases::Translation& translation, const fs::path& folder,
-                  std::vector<std::string>& warnings) {
-  std::error_code none;
-  for (const auto& table : translation.tables) {
-    if (!fs::is_regular_file(table.from, none)) continue;
-    try {
-      write_early_table(table.from, table.seconds, folder / table.file);
-    } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) warnings.push_back(format(problem));
-      warnings.push_back(
-          fmt::format("{} is not written: import again when {} is a table", table.file, table.from.string()));
-    }
   }
 }
 
@@ -110,8 +132,10 @@ ImportOutcome import_case(const ImportRequest& request) {
   ImportOutcome outcome{.dropped = {}, .changed = {}, .defaults = {}, .warnings = translation.warnings};
   auto posed = read(translation.yaml, request.case_file);
   for (const Problem& warning : posed.warnings) outcome.warnings.push_back(format(warning));
-  const auto found = look_at_meshes(posed.value, outcome.warnings);
-  if (found.lumen_rest || found.wall_rest || found.quadratic) {
+  auto found = look_at_meshes(posed.value, outcome.warnings);
+  look_at_fibres(translation.fibres, found);
+  const auto velocities = read_velocities(translation.velocities, posed.value, units, found);
+  if (found.lumen_rest || found.wall_rest || found.quadratic || found.fibre_angle || !found.periods.empty()) {
     translation = peer_cases::translate(file, units, folder, found);
     posed = read(translation.yaml, request.case_file);
   }
@@ -125,8 +149,8 @@ ImportOutcome import_case(const ImportRequest& request) {
       throw InputError(request.case_file.string(), "is there already, with other contents",
                        "choose another name by -o, or replace it with --overwrite");
   }
-  write_tables(translation, folder, outcome.warnings);
   write_files(translation, posed.value, units, folder);
+  for (const auto& [name, table] : velocities.tables) write_velocity_table(table, velocities.lumen, folder / name);
   if (!outcome.unchanged) files::write_atomically(request.case_file, translation.yaml);
   return outcome;
 }

@@ -43,16 +43,6 @@ std::vector<double> of_elements(const std::filesystem::path& file, const mesh_io
   return values;
 }
 
-/// The array at the nodes, or where there is none that of the cells.
-mesh_io::VtkCells read_stress(const std::filesystem::path& file) {
-  mesh_io::read_vtk_volume(file);  // what is wrong with all of it is said here
-  try {
-    return mesh_io::read_vtk_volume(file, {}, {stress});
-  } catch (const InputError&) {
-    return mesh_io::read_vtk_volume(file, {stress});
-  }
-}
-
 }  // namespace
 
 void write_element_prestress(const std::filesystem::path& nodal, double pascals, case_file::MeshSettings meshes,
@@ -60,7 +50,7 @@ void write_element_prestress(const std::filesystem::path& nodal, double pascals,
   meshes.lumen.reset();
   meshes.interface.reset();
   const auto wall = artifacts::load_meshes(meshes, {}).data;
-  auto file = read_stress(nodal);
+  const auto file = mesh_io::read_vtk_volume_with(nodal, stress);
   check_points(nodal, file.points, wall.points, meshes.metres(), remedy);
   auto values = of_elements(nodal, file, wall);
   for (double& value : values) value *= pascals;

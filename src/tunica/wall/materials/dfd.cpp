@@ -150,7 +150,7 @@ namespace {
 template <class DirectionSetOf>
 DiscreteFibreLaw assembled(const DfdParameters& p, const DirectionSetOf& direction_set) {
   DiscreteFibreLaw result;
-  result.shear_modulus = p.elastic.shear();
+  result.matrix.shear_modulus = p.elastic.shear();
   result.unsplit = p.options.unsplit;
   result.fibres.tension_only = p.options.tension_only;
   // Families of equal energy share one bundle, and common directions are summed.

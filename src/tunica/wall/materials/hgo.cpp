@@ -13,7 +13,7 @@ Symmetric<double> aligned(double angle) {
 }
 
 StructureTensorLaw reinforced(const ElasticConstants& elastic, const FibreOptions& options) {
-  return {.shear_modulus = elastic.shear(),
+  return {.matrix = {elastic.shear()},
           .unsplit = options.unsplit,
           .fibres = {.families = {}, .tension_only = options.tension_only}};
 }

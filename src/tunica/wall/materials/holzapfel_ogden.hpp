@@ -8,6 +8,7 @@
 #include "tunica/wall/elastic_constants.hpp"
 #include "tunica/wall/materials/fibre_energy.hpp"
 #include "tunica/wall/materials/fibre_options.hpp"
+#include "tunica/wall/materials/fibre_reinforced.hpp"
 
 namespace tunica::wall {
 
@@ -50,52 +51,31 @@ struct FibresAndSheets {
   }
 };
 
-struct HolzapfelOgden {
+/// a/(2b) {exp[b (I1_bar - 3)] - 1}.
+struct ExponentialMatrix {
   double a = 0.0, b = 0.0;  ///< [Pa], [-]
-  bool unsplit = false;     ///< do fibres and sheets follow C?
-  FibresAndSheets fibres;
 
   template <class T>
   T energy(const Symmetric<T>& C_bar) const {
-    const T matrix = T(0.5 * a / b) * (exp(T(b) * (trace(C_bar) - T(3.0))) - T(1.0));
-    return unsplit ? matrix : matrix + fibres.energy(C_bar);
+    return T(0.5 * a / b) * (exp(T(b) * (trace(C_bar) - T(3.0))) - T(1.0));
   }
   template <class T>
-  TUNICA_INLINE Symmetric<T> stress(const Symmetric<T>& C_bar) const {
-    const T zero(0.0), matrix = T(a) * exp(T(b) * (trace(C_bar) - T(3.0)));
-    Symmetric<T> S{{zero, zero, zero, zero, zero, zero}};
-    if (!unsplit) S = fibres.stress(C_bar);
-    for (int n = 0; n < 3; ++n) S[n] += matrix;
-    return S;
+  TUNICA_INLINE void add_stress(const Symmetric<T>& C_bar, Symmetric<T>& S) const {
+    const T slope = T(a) * exp(T(b) * (trace(C_bar) - T(3.0)));
+    for (int n = 0; n < 3; ++n) S[n] += slope;
   }
   template <class T>
-  TUNICA_INLINE Response<T> response(const Symmetric<T>& C_bar) const {
-    const T matrix = T(a) * exp(T(b) * (trace(C_bar) - T(3.0))), slope = T(2.0 * b) * matrix;
-    Response<T> r = unsplit ? zero_response<T>() : fibres.response(C_bar);
+  TUNICA_INLINE void add_response(const Symmetric<T>& C_bar, Response<T>& r) const {
+    const T slope = T(a) * exp(T(b) * (trace(C_bar) - T(3.0))), curvature = T(2.0 * b) * slope;
     for (int i = 0; i < 3; ++i) {
-      r.stress[i] += matrix;
-      for (int j = i; j < 3; ++j) r.tangent(i, j) += slope;
+      r.stress[i] += slope;
+      for (int j = i; j < 3; ++j) r.tangent(i, j) += curvature;
     }
-    return r;
   }
-
-  bool has_unsplit_part() const { return unsplit; }
-  template <class T>
-  T unsplit_energy(const Symmetric<T>& C) const {
-    return fibres.energy(C);
-  }
-  template <class T>
-  TUNICA_INLINE Symmetric<T> unsplit_stress(const Symmetric<T>& C) const {
-    return fibres.stress(C);
-  }
-  template <class T>
-  TUNICA_INLINE Response<T> unsplit_response(const Symmetric<T>& C) const {
-    return fibres.response(C);
-  }
-
-  /// Of the matrix.
   double shear_modulus_at_rest() const { return a; }
 };
+
+using HolzapfelOgden = FibreReinforced<FibresAndSheets, ExponentialMatrix>;
 
 struct HolzapfelOgdenParameters {
   double a = 0.0, b = 0.0;  ///< [Pa], [-]
@@ -104,7 +84,7 @@ struct HolzapfelOgdenParameters {
   Compressibility compressibility;
 
   HolzapfelOgden law() const {
-    return {a, b, options.unsplit, {{{a_f, b_f}, {a_s, b_s}}, {a_fs, b_fs}, options.tension_only}};
+    return {{a, b}, options.unsplit, {{{a_f, b_f}, {a_s, b_s}}, {a_fs, b_fs}, options.tension_only}};
   }
   double shear_modulus() const { return a; }
   double bulk_modulus() const { return compressibility.bulk(shear_modulus()); }
