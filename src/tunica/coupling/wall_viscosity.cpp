@@ -57,7 +57,7 @@ void add_wall_viscosity(const distributed::DistributedMesh& mesh, const assembly
         wall::ViscousPoint<double, 4> point;
         std::copy(std::begin(shape.dN), std::end(shape.dN), point.dN);
         point.volume = shape.volume;
-        gather_motion(fields, corners, point);
+        gather_motion<4>(fields, corners, point);
         Vec3<double> r[4] = {};
         Mat3<double> k[4][4] = {};
         add_viscous_forces(point, viscosity, coefficients, r, matrix != nullptr ? k : nullptr);
@@ -68,7 +68,7 @@ void add_wall_viscosity(const distributed::DistributedMesh& mesh, const assembly
       std::copy(region.edges[e].begin(), region.edges[e].end(),
                 std::copy(corners.begin(), corners.end(), nodes.begin()));
       wall::ViscousPoint<double, 10> point;
-      gather_motion(fields, nodes, point);
+      gather_motion<10>(fields, nodes, point);
       Vec3<double> r[10] = {};
       Mat3<double> k[10][10] = {};
       for (const auto& q : fe::quadratic_four_points) {

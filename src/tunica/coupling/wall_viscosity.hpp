@@ -1,4 +1,4 @@
-// Forces of the viscosity of the wall (wall/viscosity.hpp), in a loop of its own: most walls have none.
+// Forces of the viscosity of the wall (wall/viscous_forces.hpp), in a loop of its own: most walls have none.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 #include "tunica/assembly/block_matrix.hpp"
 #include "tunica/coupling/loop_views.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
-#include "tunica/wall/viscosity.hpp"
+#include "tunica/wall/viscous_forces.hpp"
 
 namespace tunica::coupling {
 

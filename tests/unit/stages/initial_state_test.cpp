@@ -46,9 +46,10 @@ class InitialStateOfBlood : public testing::Test {
     return case_file::read_case(file).value;
   }
   void convert(const case_file::Case& c) const {
-    peer_cases::InitialState initial{
-        .lumen = {.velocity = folder.path() / "v.vtu", .pressure = folder.path() / "p.vtu"},
-        .file = "start.checkpoint"};
+    peer_cases::InitialState initial;
+    initial.lumen.velocity = folder.path() / "v.vtu";
+    initial.lumen.pressure = folder.path() / "p.vtu";
+    initial.file = "start.checkpoint";
     write_initial_state(initial, c, peer_cases::unit_system("cgs"), folder.path() / "start.checkpoint");
   }
 

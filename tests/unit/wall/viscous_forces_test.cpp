@@ -1,4 +1,4 @@
-#include "tunica/wall/viscosity.hpp"
+#include "tunica/wall/viscous_forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class ViscousForces : public testing::TestWithParam<Viscosity::Law> {
     p.volume = 0.7;
     for (int a = 0; a < 4; ++a)
       for (int i = 0; i < 3; ++i) {
-        p.dN[a][i] = std::sin(1.0 + 3 * a + i);
+        p.dN[a][i] = std::sin(1.0 + 3 * a + 2 * i * i + a * i);
         p.displacement[a][i] = 0.2 * std::cos(2.0 + 2 * a + 3 * i);
         p.velocity[a][i] = std::sin(5.0 + a * i + a);
       }
