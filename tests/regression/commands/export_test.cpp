@@ -63,6 +63,7 @@ TEST_F(Export, ComesBackAsTheSameProblem) {
   EXPECT_EQ(printed().find("fluid.stabilisation"), std::string::npos) << printed();
   EXPECT_EQ(tunica("export case.yaml -o out --units cgs"), 2);
   EXPECT_NE(printed().find("--overwrite"), std::string::npos);
+  EXPECT_NE(printed().find("time.loads: svMultiPhysics puts the loads of the end"), std::string::npos) << printed();
   std::string bounded = coupled;
   bounded.erase(bounded.find(", stabilisation: vms_classic"), 28);
   write("case.yaml", bounded);
@@ -79,6 +80,26 @@ TEST_F(Export, ComesBackAsTheSameProblem) {
     ASSERT_TRUE(back.contains(name)) << name;
     EXPECT_NEAR(back.at(name), value, 1e-3 * std::abs(value) + 1e-3) << name;
   }
+}
+
+TEST_F(Export, TakesViscosityAndFacesThatMoveAsAWholeThereAndBack) {
+  write("case.yaml",
+        "analysis: wall\nelements: linear\nmeshes: {tube: {radius: 5 mm, length: 1 cm, wall_thickness: 1 mm, "
+        "cells_around: 8, "
+        "cells_radial: 1, cells_along: 2, cells_through_wall: 1}}\n"
+        "wall: {density: 1100 kg/m^3, viscosity: 5 Pa s, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: "
+        "0.45}}}\n"
+        "boundary: {wall_inner: free, wall_outer: free, wall_inlet: fixed, wall_outlet: {pressure: {value: -10 kPa, "
+        "undeforming: true}}}\n"
+        "time: {step: 1 ms, steps: 2}\n");
+  ASSERT_EQ(tunica("export case.yaml -o out --units cgs"), 0) << printed();
+  const std::string xml = read("out/solver.xml");
+  EXPECT_NE(xml.find("<Undeforming_neu_face> true </Undeforming_neu_face>"), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<Viscosity model=\"Newtonian\">"), std::string::npos) << xml;
+  ASSERT_EQ(tunica("import out -o back.yaml --units cgs"), 0) << printed();
+  const std::string back = read("back.yaml");
+  EXPECT_NE(back.find("undeforming: true"), std::string::npos) << back;
+  EXPECT_NE(back.find("value: 50 dyn s/cm^2"), std::string::npos) << back;
 }
 
 TEST_F(Export, WritesResultsAsThePeerDoes) {

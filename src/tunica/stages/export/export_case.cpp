@@ -210,6 +210,8 @@ void export_general(Exported& e, Entry& root) {
   add_key(general, "Number_of_time_steps", statics ? "1" : fmt::format("{}", e.c.time->most_steps()));
   add_key(general, "Time_step_size", number(statics ? end : e.c.time->step));
   add_key(general, "Spectral_radius_of_infinite_time_step", number(statics ? 0.5 : e.c.time->rho_infinity));
+  if (statics == nullptr && e.c.time->loads == coupling::LoadInstant::balance)
+    e.change("time.loads", "svMultiPhysics puts the loads of the end of a step into its balance: `end`");
   add_key(general, "Save_results_to_VTK_format", "true");
   add_key(general, "Name_prefix_of_saved_VTK_files", "result");
   add_key(general, "Increment_in_saving_VTK_files", fmt::format("{}", e.c.output.every));

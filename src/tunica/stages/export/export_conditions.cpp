@@ -63,11 +63,20 @@ class FaceExport {
     course(entry, c.pressure, bc::make_waveform(c.pressure), 1 / factor(e_.units.pressure, dimension::pressure));
     if (!on_wall()) return;
     add_key(entry, "Follower_pressure_load", c.follower ? "true" : "false");
+    if (c.undeforming) {
+      if (e_.c.solves_fluid() || e_.c.wall->element != wall::Element::mixed)
+        return e_.missing(where_ + ".pressure.undeforming", "a face that moves as a whole, but in ustruct",
+                          "set `element: mixed`, or leave it out");
+      add_key(entry, "Undeforming_neu_face", "true");
+    }
     hold(c.fixed);
   }
   void operator()(const bc::Traction& c) {
     if (!fixed(c.course))
       return e_.missing(where_ + ".traction.waveform", "a traction in time", "give a constant traction");
+    if (c.undeforming)
+      return e_.missing(where_ + ".traction.undeforming", "a face that moves as a whole under a traction",
+                        "load it by a pressure");
     const double f = bc::make_waveform(c.course).value(0.0) / factor(e_.units.pressure, dimension::pressure);
     condition("Trac", vector_text({f * c.vector[0], f * c.vector[1], f * c.vector[2]}));
     hold(c.fixed);

@@ -195,6 +195,11 @@ void export_material(Exported& exported, const wall::LawParameters& material, do
   const bool incompressible = !std::isfinite(K);
   add_key(domain, "Elasticity_modulus", exported.pressure(incompressible ? 3 * mu : 9 * K * mu / (3 * K + mu)));
   add_key(domain, "Poisson_ratio", number(incompressible ? 0.5 : (3 * K - 2 * mu) / (2 * (3 * K + mu))));
+  if (const auto& viscosity = exported.c.wall->viscosity) {
+    const bool potential = viscosity->law == wall::Viscosity::Law::potential;
+    add_key(add_section(domain, "Viscosity", potential ? "Potential" : "Newtonian"), "Value",
+            exported.in(exported.units.viscosity, dimension::dynamic_viscosity, viscosity->value));
+  }
 }
 
 void export_fibres(Exported& exported, Entry& mesh) {
