@@ -57,6 +57,13 @@ std::string Context::path(const Entry& entry) {
   return yaml_text(from_case.generic_string());
 }
 
+void Context::add_required(const Entry& section, const char* key, const char* unit, CaseKey& to, const char* name) {
+  if (const Entry* entry = section.find(key))
+    to.add(name, quantity(*entry, unit), entry->where());
+  else
+    refuse(section, fmt::format("has no {}", key), "write it: the law needs it");
+}
+
 void Context::defaulted(const Entry& section, std::string_view key, const std::string& what) {
   remarks.defaults.push_back(fmt::format("{}:{} {} has no {}: {}", section.file, section.line,
                                          section.label.empty() ? section.key : section.key + " " + section.label, key,

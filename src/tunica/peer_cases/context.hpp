@@ -48,6 +48,9 @@ struct Context {
   /// Where it lies.
   std::filesystem::path located(const Entry& entry) const;
 
+  /// Adds the number of a key of the peer to the case; an error where it is not there.
+  void add_required(const Entry& section, const char* key, const char* unit, CaseKey& to, const char* name);
+
   void refuse(const Entry& entry, std::string what, std::string remedy) {
     problems.push_back({entry.where(), std::move(what), std::move(remedy)});
   }

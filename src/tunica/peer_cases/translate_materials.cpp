@@ -1,4 +1,4 @@
-// fluid and wall: densities, viscosity laws, wall laws.
+// wall: densities, laws, fibres.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,65 +11,6 @@
 namespace tunica::peer_cases {
 
 namespace {
-
-/// Adds a key of the case with the number of a key of the peer; an error where that is not there.
-void add_required(Context& context, const Entry& section, const char* key, const char* unit, CaseKey& to,
-                  const char* name) {
-  if (const Entry* entry = section.find(key))
-    to.add(name, context.quantity(*entry, unit), entry->where());
-  else
-    context.refuse(section, fmt::format("has no {}", key), "write it: the law needs it");
-}
-
-// --- blood --------------------------------------------------------------------------------------------------------
-
-void translate_casson(Context& context, const Entry& viscosity, CaseKey& law) {
-  const auto square_root = [&](const char* key, const char* name, const char* unit) {
-    const auto root = context.number(viscosity, key);
-    if (!root) return context.refuse(viscosity, fmt::format("has no {}", key), "write it: the law needs it");
-    law.add(name, with_unit(*root * *root, unit),
-            fmt::format("{} {}, a square root", viscosity.find(key)->where(), number_text(*root)));
-  };
-  square_root("Asymptotic_viscosity_parameter", "viscosity_at_high_shear", context.units.viscosity);
-  square_root("Yield_stress_parameter", "yield_stress", context.units.pressure);
-  const double threshold = context.number(viscosity, "Low_shear_rate_threshold").value_or(0.5);
-  law.add("regularising_shear_rate", with_unit(threshold, "1/s"),
-          context.source(viscosity, "Low_shear_rate_threshold", fmt::format("the default of {}", context.peer())));
-  if (viscosity.find("Low_shear_rate_threshold") == nullptr)
-    context.defaulted(viscosity, "Low_shear_rate_threshold", fmt::format("0.5 1/s, the default of {}", context.peer()));
-  context.changed(viscosity,
-                  "below Low_shear_rate_threshold g0 the viscosity does not stay what it is at g0, the shear rate g "
-                  "becomes sqrt(g^2 + g0^2)");
-}
-
-void translate_viscosity(Context& context, const Entry& properties, CaseKey& fluid) {
-  const Entry* viscosity = properties.find("Viscosity");
-  if (viscosity == nullptr)
-    return context.refuse(properties, fmt::format("has no Viscosity; {} would compute without any", context.peer()),
-                          "write it");
-  const std::string model = text::lower(viscosity->label);
-  auto& section = fluid.section("viscosity", viscosity->where() + " " + viscosity->label);
-  const char* unit = context.units.viscosity;
-  if (model == "const" || model == "constant" || model == "newtonian") {
-    add_required(context, *viscosity, "Value", unit, section.section("newtonian", ""), "viscosity");
-  } else if (model == "cy" || model == "carreau-yasuda") {
-    auto& law = section.section("carreau_yasuda", "");
-    add_required(context, *viscosity, "Limiting_high_shear_rate_viscosity", unit, law, "viscosity_at_high_shear");
-    add_required(context, *viscosity, "Limiting_low_shear_rate_viscosity", unit, law, "viscosity_at_rest");
-    add_required(context, *viscosity, "Shear_rate_tensor_multiplier", "s", law, "relaxation_time");
-    add_required(context, *viscosity, "Shear_rate_tensor_exponent", "", law, "transition");
-    add_required(context, *viscosity, "Power_law_index", "", law, "exponent");
-  } else if (model == "cass" || model == "cassons") {
-    translate_casson(context, *viscosity, section.section("casson", ""));
-  } else {
-    context.refuse(
-        *viscosity,
-        fmt::format("is of the model `{}`, which {} does not have", text::printable(viscosity->label), context.peer()),
-        "write Constant, Carreau-Yasuda or Cassons");
-  }
-}
-
-// --- wall ---------------------------------------------------------------------------------------------------------
 
 enum class LawKind {
   neo_hooke,
@@ -227,18 +168,18 @@ void translate_hgo(Context& context, const PosedProblem& problem, const Entry& l
     auto& family = families.section("", fmt::format("family {}: k1 = {}, k2 = {}", f + 1, keys[f][0], keys[f][1]));
     family.add("mean_angle", with_unit(f == 0 ? 0.0 : angle, "rad"),
                f == 0 ? "along the first fibre direction" : "of the second fibre direction from the first");
-    add_required(context, law, "kappa", "", family, "kappa");
-    add_required(context, law, keys[f][0], context.units.pressure, family, "k1");
-    add_required(context, law, keys[f][1], "", family, "k2");
+    context.add_required(law, "kappa", "", family, "kappa");
+    context.add_required(law, keys[f][0], context.units.pressure, family, "k1");
+    context.add_required(law, keys[f][1], "", family, "k2");
   }
 }
 
 void translate_guccione(Context& context, const Entry& law, const Constants& c, CaseKey& material) {
   auto& section = material.section("fung", law.where() + " " + law.label + ", with f = c, s = l, n = r");
-  add_required(context, law, "c", context.units.pressure, section, "c");
-  add_required(context, law, "bf", "", section, "b_cc");
-  add_required(context, law, "bt", "", section, "b_ll");
-  add_required(context, law, "bt", "", section, "b_rr");
+  context.add_required(law, "c", context.units.pressure, section, "c");
+  context.add_required(law, "bf", "", section, "b_cc");
+  context.add_required(law, "bt", "", section, "b_ll");
+  context.add_required(law, "bt", "", section, "b_rr");
   for (const char* none : {"b_cl", "b_lr", "b_rc"}) section.add(none, "0", "has no such term");
   constexpr std::pair<const char*, const char*> shears[] = {{"bfs", "g_cl"}, {"bt", "g_lr"}, {"bfs", "g_rc"}};
   for (const auto& [theirs, ours] : shears)
@@ -258,8 +199,8 @@ void translate_holzapfel_ogden(Context& context, const Entry& law, const Constan
                                                               {"afs", "a_fs"}},
                                                 stiffenings[] = {
                                                     {"b", "b"}, {"b4f", "b_f"}, {"b4s", "b_s"}, {"bfs", "b_fs"}};
-  for (const auto& [theirs, ours] : stresses) add_required(context, law, theirs, context.units.pressure, section, ours);
-  for (const auto& [theirs, ours] : stiffenings) add_required(context, law, theirs, "", section, ours);
+  for (const auto& [theirs, ours] : stresses) context.add_required(law, theirs, context.units.pressure, section, ours);
+  for (const auto& [theirs, ours] : stiffenings) context.add_required(law, theirs, "", section, ours);
   section.add("fibre_energy", unsplit ? "unsplit" : "isochoric", fmt::format("as in {}", law.label));
   context.changed(law,
                   "fibres and sheets are left out as soon as they are shorter than at rest, not by the smooth "
@@ -307,8 +248,8 @@ void translate_law(Context& context, const PosedProblem& problem, const DomainPa
                                       context.peer()));
   } else if (*kind == LawKind::mooney_rivlin) {
     auto& section = material.section("mooney_rivlin", source);
-    add_required(context, *law, "c1", context.units.pressure, section, "c1");
-    add_required(context, *law, "c2", context.units.pressure, section, "c2");
+    context.add_required(*law, "c1", context.units.pressure, section, "c1");
+    context.add_required(*law, "c2", context.units.pressure, section, "c2");
     add_compressibility(context, *constants, section);
   } else if (*kind == LawKind::hgo) {
     translate_hgo(context, problem, *law, *constants, material);
@@ -447,26 +388,6 @@ void translate_prestress(Context& context, const PosedProblem& problem, CaseKey&
 }
 
 }  // namespace
-
-void translate_fluid(Context& context, const PosedProblem& problem, CaseKey& top) {
-  if (!problem.blood) return;
-  const Entry& properties = *problem.blood->properties;
-  auto& fluid = top.section("fluid", properties.where());
-  if (const Entry* density = properties.find("Density")) {
-    fluid.add("density", context.quantity(*density, context.units.density), density->where());
-    check_blood_density(context.units, context.number(properties, "Density").value_or(0), density->where(),
-                        context.problems);
-  } else {
-    context.defaulted(properties, "Density",
-                      fmt::format("1060 kg/m^3, the default of tunica; {} would take 0.5", context.peer()));
-  }
-  translate_viscosity(context, properties, fluid);
-  fluid.add("stabilisation", "vms_classic", "as the peer's");
-  if (const Entry* backflow = properties.find("Backflow_stabilization_coefficient"))
-    fluid.add("backflow_stabilisation", context.quantity(*backflow, ""), backflow->where());
-  else
-    context.defaulted(properties, "Backflow_stabilization_coefficient", "0.2, the default of both");
-}
 
 void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top) {
   if (problem.walls.empty()) return;

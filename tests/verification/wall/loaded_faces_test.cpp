@@ -107,11 +107,11 @@ TEST_P(Creep, OfASimpleShearIsThatOfOneEquation) {
   const bc::Traction traction{.vector = {{tau, 0, 0}}, .course = {1.0, 1.0, end}, .fixed = {false, true, true}};
   const auto load_at = [&](double t) { return tau * 0.5 * (1 - std::cos(std::numbers::pi * t / end)); };
   auto input = solid_input({Element::mixed, mu, 0.5, 1e-3}, {{"y_min", bc::Fixed{}},
-                                                              {"y_max", traction},
-                                                              {"x_min", held(false, true, true)},
-                                                              {"x_max", held(false, true, true)},
-                                                              {"z_min", held(false, true, true)},
-                                                              {"z_max", held(false, true, true)}});
+                                                             {"y_max", traction},
+                                                             {"x_min", held(false, true, true)},
+                                                             {"x_max", held(false, true, true)},
+                                                             {"z_min", held(false, true, true)},
+                                                             {"z_max", held(false, true, true)}});
   input.rho_infinity = 0.5;
   input.wall->viscosity = wall::Viscosity{law, eta};
   double gamma = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -41,6 +42,12 @@ class Words {
       refuse(fmt::format("has {} of {:.9g}", what, value));
     return static_cast<std::size_t>(value);
   }
+  /// Number of a node as the file counts them.
+  std::int64_t node() {
+    const double value = number("a node");
+    if (!(value >= 0 && value < 1e9) || value != std::floor(value)) refuse(fmt::format("has the node {:.9g}", value));
+    return static_cast<std::int64_t>(value);
+  }
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(where(), what, remedy); }
 
  private:
@@ -53,7 +60,10 @@ class Words {
 };
 
 const mesh::FaceData& face_of(const mesh::MeshData& lumen, const std::string& name) {
-  return *std::find_if(lumen.faces.begin(), lumen.faces.end(), [&](const auto& face) { return face.name == name; });
+  const auto at =
+      std::find_if(lumen.faces.begin(), lumen.faces.end(), [&](const auto& face) { return face.name == name; });
+  if (at == lumen.faces.end()) throw InputError("boundary." + name, "is no face of the lumen", "name one of its faces");
+  return *at;
 }
 
 std::vector<std::int32_t> nodes_of(const mesh::FaceData& face) {
@@ -64,11 +74,12 @@ std::vector<std::int32_t> nodes_of(const mesh::FaceData& face) {
   return nodes;
 }
 
-/// Place of a node of the mesh among those of the face.
-std::size_t place_of(const VelocityTable& table, std::int64_t node, const Words& words, double as_written) {
+/// Reads the number of a node and returns its place among those of the face.
+std::size_t place_of_next(const VelocityTable& table, int first_node, Words& words) {
+  const auto written = words.node(), node = written - first_node;
   const auto at = std::lower_bound(table.nodes.begin(), table.nodes.end(), node);
   if (at == table.nodes.end() || *at != node)
-    words.refuse(fmt::format("names node {:.9g}, which is not on the face", as_written));
+    words.refuse(fmt::format("names node {}, which is not on the face", written));
   return static_cast<std::size_t>(at - table.nodes.begin());
 }
 
@@ -93,9 +104,8 @@ void read_text(const peer_cases::NodalVelocities& wanted, double unit, VelocityT
   table.values.assign(times, std::vector<Vec3<double>>(nodes));
   std::vector<char> given(nodes, 0);
   for (std::size_t n = 0; n < nodes; ++n) {
-    const double id = words.number("a node");
-    const auto place = place_of(table, static_cast<std::int64_t>(id) - wanted.first_node, words, id);
-    if (given[place]++) words.refuse(fmt::format("names node {:.9g} twice", id));
+    const auto place = place_of_next(table, wanted.first_node, words);
+    if (given[place]++) words.refuse(fmt::format("names node {} twice", table.nodes[place] + wanted.first_node));
     for (auto& of_time : table.values)
       for (int i = 0; i < 3; ++i) of_time[place][i] = unit * words.number("a component of a velocity");
   }
@@ -144,9 +154,8 @@ void read_shape(const peer_cases::NodalVelocities& wanted, const mesh::MeshData&
   Words words(wanted.file);
   std::vector<double> sizes(table.nodes.size(), 0.0);
   for (std::size_t n = 0; n < table.nodes.size(); ++n) {
-    const double id = words.number("a node");
-    sizes[place_of(table, static_cast<std::int64_t>(id) - wanted.first_node, words, id)] =
-        words.number("the size there");
+    const auto place = place_of_next(table, wanted.first_node, words);
+    sizes[place] = words.number("the size there");
   }
   std::vector<Vec3<double>> normals(table.nodes.size(), Vec3<double>{});
   std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
