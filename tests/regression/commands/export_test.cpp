@@ -83,10 +83,10 @@ TEST_F(Export, ComesBackAsTheSameProblem) {
 }
 
 TEST_F(Export, TakesViscosityAndFacesThatMoveAsAWholeThereAndBack) {
+  write("coupled.yaml", coupled);
+  ASSERT_EQ(tunica("export coupled.yaml -o first --units cgs"), 0) << printed();
   write("case.yaml",
-        "analysis: wall\nelements: linear\nmeshes: {tube: {radius: 5 mm, length: 1 cm, wall_thickness: 1 mm, "
-        "cells_around: 8, "
-        "cells_radial: 1, cells_along: 2, cells_through_wall: 1}}\n"
+        "analysis: wall\nelements: linear\nmeshes: {length_unit: cm, wall: {simvascular: first/mesh/wall}}\n"
         "wall: {density: 1100 kg/m^3, viscosity: 5 Pa s, material: {neo_hooke: {young_modulus: 1 MPa, poisson_ratio: "
         "0.45}}}\n"
         "boundary: {wall_inner: free, wall_outer: free, wall_inlet: fixed, wall_outlet: {pressure: {value: -10 kPa, "

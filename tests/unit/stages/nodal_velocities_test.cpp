@@ -100,7 +100,8 @@ TEST_F(NodalVelocitiesOf, AShapeGoAlongTheNormalAndCarryTheFlow) {
   for (const int node : numbers()) text += std::to_string(node - 1) + " 2.5\n";
   write(text);
   first_node = 0;
-  for (const auto& v : read(NodalVelocities::Kind::shape).values.at(0))
+  const auto flat = read(NodalVelocities::Kind::shape);
+  for (const auto& v : flat.values.at(0))
     EXPECT_LT(norm(v - Vec3<double>{{-0.025, 0, 0}}), 1e-12);  // outward along -x, cm/s
   unit_flow = zero_rim = true;
   const auto table = read(NodalVelocities::Kind::shape);
