@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tunica/stages/export/exported.hpp"
+#include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
 
