@@ -68,6 +68,7 @@ TEST_F(InitialStateOfBlood, HoldsItsFieldsAndTheFlowOfItsOutlets) {
   const auto n = 4 * static_cast<std::size_t>(mesh.nodes());
   for (auto* field : {&state.velocity_pressure, &state.acceleration, &state.displacement, &state.displacement_rate})
     field->assign(n, 0.0);
+  state.end_pressure.assign(static_cast<std::size_t>(mesh.nodes()), 0.0);
   const auto outlets = artifacts::read_start(folder.path() / "start.checkpoint", mesh, state,
                                              artifacts::mesh_hash(data), "import again");
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
