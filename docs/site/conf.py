@@ -26,6 +26,7 @@ html_css_files = ["katex/katex.min.css", "site.css"]
 html_extra_path = [f"{source}/_extra"]
 html_show_sphinx = False
 html_copy_source = False
+smartquotes = False  # texts are as they are written
 highlight_language = "none"
 # Results of the search have summaries where pages can be fetched, which files opened from a disk cannot.
 html_js_files = [(None, {"body": "DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = location.protocol !== 'file:';"})]

@@ -2,14 +2,14 @@
 """Lays out the pages of the site for Sphinx: the pages of docs/ and of the root in the dialect of MyST, reference pages
 from what the program prints, a gallery.
 
-usage: sources.py ROOT TARGET TUNICA [VIEW ...]     VIEW: name=page.html, pages of `tunica view` for the gallery
+usage: sources.py ROOT TARGET TUNICA [--with-api] [VIEW ...]     VIEW: name=page.html, pages of `tunica view` for the gallery;
+                                                                  with --with-api pages of the C++ interface are in api/
 
 Pages are written for GitHub: formulas are $`...`$ and ```math, links lead through the repository. Every page has a place
 in CONTENTS, and every link leads to a page or a file; anything else is an error."""
 import os
 import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -110,7 +110,7 @@ class Site:
             out.append(line)
         return "\n".join(out) + "\n"
 
-    def lay_out(self, program, views):
+    def lay_out(self, program, views, with_api):
         for path, page in self.pages.items():
             text = self.converted(path)
             if path == HOME:
@@ -119,11 +119,17 @@ class Site:
         for name, text in reference.pages(program).items():
             self.write(name, text)
         self.write("gallery", self.gallery(views))
-        self.write("api", "# C++ and Python\n\nThe headers of the libraries, with units, shapes and errors: <a href=\"api/index.html\">classes and functions</a>. What may know what is in "
-                   "[](architecture.md); a program of its own on them is <a href=\"" + self.file_link("api", "examples/library") + "\">examples/library</a>.\n\nThe Python package: [](python.md).\n")
+        self.write("api", self.interface(with_api))
         static = self.target / "_static"
         static.mkdir(parents=True, exist_ok=True)
         shutil.copy(Path(__file__).resolve().parent / "site.css", static)
+
+    def interface(self, with_api):
+        headers = '<a href="api/index.html">classes and functions</a>' if with_api else "not made (`scripts/site --quick`)"
+        library = f'<a href="{self.file_link("api", "examples/library")}">examples/library</a>'
+        return ("# C++ and Python\n\n"
+                f"The headers of the libraries, with units, shapes and errors: {headers}. Which room may include which is in [](architecture.md); a program "
+                f"of its own on the libraries is {library}.\n\nThe Python package: [](python.md).\n")
 
     @staticmethod
     def toctree(caption, pages):
@@ -153,12 +159,12 @@ class Site:
 
 def main():
     root, target, program = sys.argv[1:4]
-    views = [tuple(v.split("=", 1)) for v in sys.argv[4:]]
+    views = [tuple(v.split("=", 1)) for v in sys.argv[4:] if v != "--with-api"]
     shutil.rmtree(target, ignore_errors=True)
     (Path(target) / "_extra" / "files").mkdir(parents=True)
     site = Site(root, target)
     if not site.errors:
-        site.lay_out(program, views)
+        site.lay_out(program, views, "--with-api" in sys.argv)
     if site.errors:
         sys.exit("\n".join(site.errors))
 

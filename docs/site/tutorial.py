@@ -59,7 +59,7 @@ def messages(page, root):
     sources = "\n".join(p.read_text(encoding="utf-8") for folder in ("src", "app") for p in sorted(Path(root, folder).rglob("*.[ch]pp")))
     sources = re.sub(r'"\s*\n\s*"', "", sources).replace('\\"', '"')
     missing, count = [], 0
-    for message in re.findall(r"(?m)^### `(.*)`$", Path(page).read_text(encoding="utf-8")):
+    for message in re.findall(r"(?m)^### `+(.*?)`+$", Path(page).read_text(encoding="utf-8")):
         for part in (p.strip() for p in message.split("…")):
             count += 1
             if part not in sources:
