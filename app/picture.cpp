@@ -1,4 +1,4 @@
-// tunica picture: a PNG of results.
+// tunica picture: a PNG of results, or a movie of them.
 #include "tunica/drawing/picture.hpp"
 
 #include <cstdio>
@@ -15,7 +15,7 @@ struct Arguments {
   double time = 0.0;
   int component = 0;
   std::array<double, 2> limits{};
-  std::array<int, 2> size{1200, 800};
+  std::array<int, 2> size{0, 0};
   std::array<double, 6> clip{};
   std::array<double, 4> focus{};
   std::array<double, 3> view{-1.0, -1.5, 0.8}, up{0.0, 0.0, 1.0};
@@ -37,26 +37,35 @@ void picture(const CLI::App& command, const Arguments& arguments) {
   options.height = arguments.size[1];
   const auto summary = drawing::render(options);
   std::printf("%s: ", options.output.c_str());
-  if (summary.time) std::printf("t = %g s, ", *summary.time);
-  if (options.array.empty()) {
+  if (options.movie) std::printf("%zu steps, ", summary.frames);
+  if (summary.time && !options.movie) std::printf("t = %g s, ", *summary.time);
+  const std::string& array = options.array.empty() ? options.streamlines : options.array;
+  if (array.empty()) {
     std::printf("no colours\n");
   } else {
-    std::printf("%s from %g to %g\n", options.array.c_str(), summary.limits[0], summary.limits[1]);
+    std::printf("%s from %g to %g\n", array.c_str(), summary.limits[0], summary.limits[1]);
   }
 }
 
 }  // namespace
 
 void add_picture(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("picture", "Draw results or meshes as a PNG, without a screen");
+  CLI::App* command = app.add_subcommand("picture", "Draw results or meshes as a PNG or a movie, without a screen");
   command->footer(
       "Needs an X display, which xvfb-run provides. Example:\n"
-      "  xvfb-run -a tunica picture results/lumen.pvd --array pressure --clip 0 0 0 0 -1 0 -o pressure.png");
+      "  xvfb-run -a tunica picture results/lumen.pvd --array pressure --clip 0 0 0 0 -1 0 -o pressure.png\n"
+      "  xvfb-run -a tunica picture results/lumen.pvd --streamlines velocity --movie -o flow.webm");
   const auto a = std::make_shared<Arguments>();
   auto& o = a->options;
   command->add_option("files", o.inputs, "Time series (.pvd) or meshes (.vtu, .pvtu, .vtp, .pvtp), drawn together")
       ->required();
-  command->add_option("-o,--output", o.output, "The picture, ending in .png")->required()->check(some_name());
+  command
+      ->add_option("-o,--output", o.output,
+                   "The picture, ending in .png; a movie: .webm, .gif, or .png for single ones")
+      ->required()
+      ->check(some_name());
+  command->add_flag("--movie", o.movie, "All steps of a series, with the same colours; .webm and .gif need ffmpeg");
+  command->add_option("--frame-rate", o.frame_rate, "Steps of a movie in a second; default: 10");
   command->add_option("--time", a->time, "Step of a series nearest to this time; default: the last");
   command->add_option("--array", o.array, "Point or cell array to colour by; default: none");
   command->add_option("--component", a->component, "Of a vector array, 0 1 2; default: the magnitude");
@@ -74,10 +83,12 @@ void add_picture(CLI::App& app) {
   command->add_option("--lines", o.lines, "Cell vector array along which short lines are drawn");
   command->add_option("--line-length", o.line_length,
                       "Of these, in the unit of the files; default: a hundredth of the view");
+  command->add_option("--streamlines", o.streamlines, "Point vector array that lines follow; they bear the colours");
+  command->add_option("--seeds", o.seeds, "Points that these lines go through; default: 300");
   command->add_option("--focus", a->focus, "Show only the surroundings of a point: x y z, radius");
   command->add_option("--view", a->view, "Direction from the scene to the camera, x y z");
   command->add_option("--up", a->up, "Direction that points up in the picture, x y z");
-  command->add_option("--size", a->size, "Width and height in pixels");
+  command->add_option("--size", a->size, "Width and height in pixels; default: as the scene is, at most 1000 high");
   command->add_flag("--edges", o.edges, "Draw the edges of the elements");
   command->callback([command, a] { picture(*command, *a); });
 }

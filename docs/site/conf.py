@@ -86,6 +86,12 @@ def mend_theme(app):
         script.write_text(text.replace(part[0], module), encoding="utf-8")
 
 
+def level_captions(app, page, template, context, doctree):
+    """Captions of the contents are headings, and a heading has a level."""
+    if "furo_navigation_tree" in context:
+        context["furo_navigation_tree"] = context["furo_navigation_tree"].replace('role="heading"', 'role="heading" aria-level="2"')
+
+
 def finish(app, error):
     if error is None:
         copy_katex(app)
@@ -94,6 +100,7 @@ def finish(app, error):
 
 def setup(app):
     app.add_html_math_renderer("katex", (visit_formula(False), None), (visit_formula(True), None))
+    app.connect("html-page-context", level_captions, priority=900)
     app.connect("build-finished", finish)
 
 

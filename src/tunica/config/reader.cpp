@@ -330,7 +330,8 @@ class Reader {
   void warn_implausible(const Field& field, const std::string& text, const std::string& path, int line) {
     const Range& usual = *field.plausible;
     const std::string meant = likely_meant(text, field.dimension, usual.low, usual.high);
-    const std::string si = in_si(si_value(field, text), field.dimension);
+    // Rounded: 26 ms are 0.026 s, not 0.026000000000000002 s.
+    const std::string si = in_si(std::stod(fmt::format("{:.12g}", si_value(field, text))), field.dimension);
     const std::string in_unit = si == text ? "" : " = " + si;
     warnings.push_back(
         {where(path, line), fmt::format("`{}`{} is unusual: {} is expected", text, in_unit, field.plausible_text),

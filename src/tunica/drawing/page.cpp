@@ -26,17 +26,25 @@ constexpr const char* style =
     "table{border-collapse:collapse;margin-bottom:1em;font-variant-numeric:tabular-nums}caption{text-align:left;"
     "color:var(--soft);padding-bottom:.2em}td,th{padding:.2em .8em;border-bottom:1px solid var(--line);"
     "text-align:right;vertical-align:top}thead th{font-weight:600}td:first-child,th:first-child{text-align:left;"
-    "padding-left:0}tbody th{font-weight:400}.legend i{display:inline-block;width:1em;height:1em;margin-right:.4em;"
+    "padding-left:0}td,th{white-space:nowrap}td:first-child,th,caption{white-space:normal}.aside{display:block;"
+    "text-align:left;white-space:normal;max-width:34em;min-width:12em}tbody th{font-weight:400}.legend "
+    "i{display:inline-block;width:1em;height:1em;margin-right:.4em;"
     "vertical-align:-.15em}.legend span{margin-right:1.2em}"
     ".missing{color:var(--soft);background:var(--panel);padding:.4em .8em;border-radius:4px}"
     ".bad{color:var(--bad);font-weight:600}.good{color:var(--good)}.soft{color:var(--soft)}"
     "pre{background:var(--panel);padding:.8em;overflow-x:auto;font-size:13px}nav a{margin-right:1em}"
     "summary{cursor:pointer}"
     "@media(max-width:600px){body{margin:.6em auto;padding:0 .6em}td,th{padding:.2em .4em}}"
-    "@media print{:root{--ink:#000;--soft:#333;--page:#fff;--panel:#fff;--line:#bbb}@page{size:A4;margin:14mm 13mm}"
-    "body{font-size:9.5pt;max-width:none;margin:0;padding:0}nav{display:none}figure,tr,.missing{break-inside:avoid}"
-    "h2,h3,caption,summary{break-after:avoid}figure{width:48%;margin:0 1% 2mm 0}.wide{overflow:visible}"
-    "table{font-size:8pt}td,th{padding:.1em .4em}.screen{display:none}pre{white-space:pre-wrap;font-size:7.5pt}}";
+    "@media print{:root{--ink:#000;--soft:#333;--page:#fff;--panel:#fff;--line:#bbb}@page{size:A4;margin:12mm 12mm}"
+    "body{font-size:8.5pt;line-height:1.35;max-width:none;margin:0;padding:0}nav{display:none}"
+    "h1{font-size:15pt}h2{font-size:11.5pt;margin:3mm 0 1.5mm}h3{font-size:9.5pt;margin:2.5mm 0 1mm}p,ul{margin:1mm 0}"
+    "figure,tr,.missing{break-inside:avoid}h2,h3,caption,summary{break-after:avoid}p,li{orphans:3;widows:3}"
+    "figure{width:31.5%;margin:0 1.2% 1.5mm 0}figcaption{font-size:7.5pt}.wide{overflow:visible}.missing{padding:.2em "
+    ".5em}"
+    "table{font-size:7pt;line-height:1.2;margin-bottom:2mm}td,th{padding:.08em .5em}.aside{min-width:0;max-width:none}"
+    ".screen{display:none}pre{white-space:pre-wrap;font-size:5.5pt;line-height:1.2;margin:1mm 0;padding:0}"
+    ".fine{font-size:5.5pt}.fine .wide,.fine pre{columns:3;column-gap:4mm}.fine table{font-size:5.5pt}"
+    ".fine td{white-space:normal;overflow-wrap:anywhere}}";
 constexpr const char* replacement = "\xEF\xBF\xBD";  // for a byte of a file name that is no UTF-8
 constexpr const char *heading_end = "</h1>\n", *page_end = "</main></body></html>\n";
 

@@ -158,10 +158,12 @@ void add_along(const fs::path& post, std::vector<Plot>& plots) {
     for (int lumen = 0; lumen < (two ? 2 : 1); ++lumen)
       for (const char* statistic : {"mean", "largest", "smallest"})
         if (const auto* y = column(fmt::format("{} {} {}", lumen == 0 ? "true" : "false", what, statistic))) {
-          const bool mean = statistic == std::string("mean");
+          const bool mean = statistic == std::string("mean"), largest = statistic == std::string("largest");
           const std::string name = two ? (lumen == 0 ? "true lumen" : "false lumen") : "lumen";
-          plot.curves.push_back(
-              {mean ? name : fmt::format("{}, {}", name, statistic), distance, *y, mean ? lumen : lumen + 7});
+          plot.curves.push_back({mean ? name : fmt::format("{}, {}", name, statistic), distance, *y,
+                                 lumen + (mean      ? 0
+                                          : largest ? 7
+                                                    : 14)});
         }
     plots.push_back(std::move(plot));
   }

@@ -7,6 +7,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPointData.h>
@@ -58,7 +59,11 @@ class Picture : public testing::Test {
     along->SetName("along");
     along->SetNumberOfComponents(3);
     for (int c = 0; c < 8; ++c) along->InsertNextTuple3(3.0, 0.0, 0.0);
+    vtkNew<vtkIntArray> part;  // 3 on the left, 8 on the right
+    part->SetName("part");
+    for (int c = 0; c < 8; ++c) part->InsertNextValue(c % 2 == 0 ? 3 : 8);
     grid->GetCellData()->AddArray(along);
+    grid->GetCellData()->AddArray(part);
     grid->GetPointData()->AddArray(pressure);
     grid->GetPointData()->AddArray(displacement);
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -214,6 +219,107 @@ TEST_F(Picture, DrawsLinesAlongVectorsAndShowsAFocus) {
   EXPECT_THROW(render(options), InputError);
 }
 
+TEST_F(Picture, SignedValuesHaveAMapAboutZero) {
+  EXPECT_EQ(render(front(write_cube("cube.vtu", -1.0))).limits, (std::array<double, 2>{-1.0, 1.0}));
+  const auto colours = row(0.46);
+  const auto left = colours[50], middle = colours[172], right = colours[295];
+  EXPECT_GT(left[2], left[0] + 60) << "blue below zero";
+  EXPECT_NEAR(middle[0], middle[2], 12) << "grey at zero";
+  EXPECT_GT(right[0], right[2] + 60) << "red above it";
+  auto options = front(write_cube("cube.vtu", -0.5));  // -0.5, 0.5, 1.5: two thirds are smaller than 1
+  options.percentile = 60;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{-0.5, 0.5}));
+}
+
+TEST_F(Picture, WholeNumbersAreCategories) {
+  auto options = front(write_cube("cube.vtu"));
+  options.array = "part";
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{3.0, 8.0}));
+  const auto colours = row(0.46);
+  const auto left = colours[80], right = colours[260];
+  EXPECT_GT(left[2], left[0] + 80) << "blue";
+  EXPECT_GT(right[0], right[2] + 80) << "orange";
+  EXPECT_EQ(colours[60], colours[150]) << "nothing between two categories";
+}
+
+TEST_F(Picture, FitsTheSceneWithoutASize) {
+  auto options = front(write_cube("cube.vtu"));
+  options.width = options.height = 0;
+  render(options);
+  // The cube, 1/1.08 of the scene's width, fills what the key leaves.
+  const auto colours = row(0.46);
+  const auto seen = [&](double at) {
+    return !is_white(colours[static_cast<std::size_t>(at * static_cast<double>(colours.size()))]);
+  };
+  EXPECT_TRUE(seen(0.05) && seen(0.8)) << colours.size();
+}
+
+TEST_F(Picture, StreamlinesFollowVectors) {
+  auto options = front(write_cube("cube.vtu"));
+  options.streamlines = "displacement";
+  options.array = "pressure";
+  options.seeds = 27;
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{0.0, 2.0}));
+  // They stand upright, at x = 0, 1 and 2: dark violet, green, yellow, with the shell between them.
+  const auto colours = row(0.46);
+  const auto strong = std::count_if(colours.begin(), colours.begin() + 340, [](const Colour& c) {
+    return *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end()) > 60;
+  });
+  EXPECT_GT(strong, 3);
+  EXPECT_LT(strong, 60);
+  options.array.clear();
+  EXPECT_EQ(render(options).limits, (std::array<double, 2>{2.0, 2.0})) << "coloured by their own size";
+  options.streamlines = "pressure";
+  EXPECT_NE(message(options).find("no input has a point array 'pressure' of vectors to follow"), std::string::npos)
+      << message(options);
+}
+
+TEST_F(Picture, MoviesHaveAllStepsInTheSameColours) {
+  write_cube("a.vtu");
+  write_cube("b.vtu", 5.0);
+  std::ofstream(file("series.pvd")) << "<?xml version=\"1.0\"?><VTKFile type=\"Collection\"><Collection>"
+                                       "<DataSet timestep=\"0.2\" file=\"b.vtu\"/>"
+                                       "<DataSet timestep=\"0.1\" file=\"a.vtu\"/></Collection></VTKFile>";
+  auto options = front(file("series.pvd"));
+  options.movie = true;
+  options.width = 401;
+  options.output = file("movie.png");
+  const auto summary = render(options);
+  EXPECT_EQ(summary.frames, 2U);
+  EXPECT_EQ(summary.limits, (std::array<double, 2>{0.0, 7.0}));
+  EXPECT_TRUE(std::filesystem::exists(file("movie_0001.png")) && std::filesystem::exists(file("movie_0002.png")));
+  options.output = file("movie.mp4");
+  EXPECT_NE(message(options).find("is no name of a movie"), std::string::npos);
+  options.inputs = {file("a.vtu")};
+  options.output = file("movie.png");
+  EXPECT_NE(message(options).find("no input is a series"), std::string::npos);
+}
+
+TEST_F(Picture, MoviesAreEncoded) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+  write_cube("a.vtu");
+  write_cube("b.vtu", 5.0);
+  std::ofstream(file("series.pvd")) << "<VTKFile type=\"Collection\"><Collection>"
+                                       "<DataSet timestep=\"0.2\" file=\"b.vtu\"/>"
+                                       "<DataSet timestep=\"0.1\" file=\"a.vtu\"/></Collection></VTKFile>";
+  auto options = front(file("series.pvd"));
+  options.movie = true;
+  for (const auto& [name, begin] :
+       {std::pair<std::string, std::string>{"movie.gif", "GIF89a"}, {"movie.webm", "\x1a\x45\xdf\xa3"}}) {
+    options.output = file(name);
+    render(options);
+    std::ifstream stream(file(name), std::ios::binary);
+    std::string head(begin.size(), ' ');
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    EXPECT_EQ(head, begin) << name;
+    EXPECT_FALSE(std::filesystem::exists(file(name + ".part")));
+  }
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", file("").c_str(), 1);
+  EXPECT_THROW(render(options), SolverError) << "without ffmpeg";
+  setenv("PATH", path.c_str(), 1);
+}
+
 TEST_F(Picture, DamagedFilesAreRefused) {
   const auto spoiled = [&](const std::string& name, const std::string& was, const std::string& is) {
     std::ifstream stream(write_cube(name, 0, true));
@@ -257,7 +363,7 @@ TEST_F(Picture, NamesTheArraysThatExist) {
     render(options);
     FAIL() << "an unknown array was accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("displacement [mm], pressure"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("displacement [mm], part, pressure"), std::string::npos) << error.what();
   }
   options.array = "pressure";
   options.warp = "velocity";

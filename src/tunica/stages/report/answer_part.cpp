@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "tunica/drawing/page.hpp"
 #include "tunica/stages/report/parts.hpp"
@@ -35,6 +36,16 @@ const Beside strength = {
     "measured around ascending aortas: aneurysms tear at 1180 ± 120 kPa, others at 1800 ± 240 kPa (Vorp "
     "et al. 2003, after table 1 of Sherifova & Holzapfel 2019, Acta Biomater 99:1)"};
 
+const Beside systolic_at_rest = {
+    90, 120, "at rest usually 90 to 120; above is elevated (Whelton et al. 2018, Hypertension 71:e13)"};
+const Beside stable_lumen = {0, 0.22,
+                             "backflow over inflow at the entry tear: 0.10 ± 0.12 in stable, 0.49 ± 0.18 in growing "
+                             "chronic dissections (Marlevi et al. 2021, J Cardiovasc Magn Reson 23:51)"};
+const Beside moving_lumens = {
+    0, 1.9,
+    "with the heart beat the lumens of chronic dissections move by 0.9 ± 0.4 mm (true) and 1.1 "
+    "± 0.4 mm (false; Weber et al. 2009, Eur J Radiol 72:483)"};
+
 /// Rows of a table of figures: what, value, beside what.
 class Answers {
  public:
@@ -45,13 +56,16 @@ class Answers {
            const Beside* beside = nullptr) {
     if (!value.is_number()) return;
     const bool outside = beside != nullptr && (value.get<double>() < beside->low || value.get<double>() > beside->high);
-    rows_.push_back({what, figure(value, 3) + band(r_, path) + mark(of), unit, beside == nullptr ? "" : beside->text,
+    rows_.push_back({what, figure(value, 3) + band(r_, path) + mark(of), unit,
+                     beside == nullptr ? "" : "<span class=\"aside\">" + beside->text + "</span>",
                      beside == nullptr ? ""
                      : outside         ? "<span class=\"bad\">outside</span>"
                                        : "<span class=\"good\">within</span>"});
   }
   std::string table(const std::string& caption) const {
-    return rows_.empty() ? "" : page::table({"", "value", "unit", "beside", ""}, rows_, caption);
+    return rows_.empty() ? ""
+                         : page::table({"quantity", "value", "unit", "<span class=\"aside\">beside</span>", "mark"},
+                                       rows_, caption);
   }
 
  private:
@@ -80,7 +94,10 @@ void add_pressures(const Results& r, Answers& answers) {
       }
       const std::string key = fmt::format("pressure/{}_mmHg", when);
       answers.add(fmt::format("{} pressure at the inlet", when), at(o, key), "mmHg",
-                  fmt::format("openings/{}/{}", o.value("name", ""), key), o, target.is_number() ? &beside : nullptr);
+                  fmt::format("openings/{}/{}", o.value("name", ""), key), o,
+                  target.is_number()                     ? &beside
+                  : when == std::string_view("systolic") ? &systolic_at_rest
+                                                         : nullptr);
     }
   }
 }
@@ -128,9 +145,9 @@ void add_lumens(const Results& r, Answers& answers) {
     answers.add(name + ": out of it", at(t, "volume_out_of_false_lumen_ml"), "ml", "", t);
   }
   answers.add("ejection fraction of the false lumen", at(lumen, "ejection_fraction"), "1",
-              "false_lumen/ejection_fraction", lumen);
+              "false_lumen/ejection_fraction", lumen, &stable_lumen);
   answers.add("largest displacement of the flap since the start", at(flap, "largest_displacement_mm"), "mm",
-              "flap/largest_displacement_mm", flap);
+              "flap/largest_displacement_mm", flap, &moving_lumens);
 }
 
 void add_wall(const Results& r, Answers& answers) {
@@ -159,7 +176,7 @@ std::string stress_table(const Results& r) {
                         mark(region));
         if (value.is_number()) last = std::max(last, value.get<double>());
       }
-      head.push_back("");
+      head.push_back("mark");
       cells.push_back(last > strength.high ? "<span class=\"bad\">above</span>" : "<span class=\"good\">below</span>");
       rows.push_back(cells);
     }
@@ -224,6 +241,16 @@ std::string resolution_text(const Results& r) {
 }
 
 }  // namespace
+
+void add_targets(const Results& r, std::vector<viewer::Plot>& plots) {
+  if (plots.empty() || !plots[0].in_time || plots[0].curves.empty() || plots[0].curves[0].x.empty()) return;
+  const std::vector<double> ends = {plots[0].curves[0].x.front(), plots[0].curves[0].x.back()};
+  for (const char* when : {"systolic", "diastolic"})
+    if (const json target = at(at(r.tuning, "targets"), fmt::format("{} [Pa]", when)); target.is_number()) {
+      const double asked = target.get<double>() / mmHg;
+      plots[0].curves.push_back({fmt::format("target at the inlet, {}", when), ends, {asked, asked}, 0, "target"});
+    }
+}
 
 std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots) {
   if (!r.post.is_object())

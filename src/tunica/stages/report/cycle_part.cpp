@@ -1,6 +1,11 @@
 // Figures of a cycle, as docs/post.md lays them out.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tunica/artifacts/dissipation.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/stages/report/parts.hpp"
 #include "tunica/viewer/view_page.hpp"
@@ -36,19 +41,49 @@ std::string list_table(const Results& r, const std::string& path, const Columns&
   return drawing::page::table(head, rows);
 }
 
+/// "lumen_left_renal" -> "left renal".
+std::string readable(std::string name) {
+  if (name.starts_with("lumen_")) name = name.substr(6);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return drawing::page::escaped(name);
+}
+
+/// Flow the way that blood goes, as in the curves: in at the inlet, out elsewhere.
 std::string openings(const Results& r) {
-  const json& post = r.post;
-  if (!post.contains("openings")) return "";
-  return "<h3>Openings</h3>\n" + list_table(r, "openings",
-                                            {{"opening", "name"},
-                                             {"lumen", "lumen"},
-                                             {"systolic [mmHg]", "pressure/systolic_mmHg"},
-                                             {"diastolic [mmHg]", "pressure/diastolic_mmHg"},
-                                             {"mean [mmHg]", "pressure/mean_mmHg"},
-                                             {"mean flow outwards [ml/s]", "flow_outwards/mean_ml_s"},
-                                             {"largest", "flow_outwards/largest_ml_s"},
-                                             {"smallest", "flow_outwards/smallest_ml_s"},
-                                             {"share of the outflow", "share_of_outflow"}});
+  const json list = at(r.post, "openings");
+  if (!list.is_array()) return "";
+  double most = 0;
+  for (const auto& o : list)
+    for (const char* which : {"largest", "smallest"})
+      if (const json q = at(o, fmt::format("flow_outwards/{}_ml_s", which)); q.is_number())
+        most = std::max(most, std::abs(q.get<double>()));
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& o : list) {
+    const std::string name = o.value("name", "");
+    const bool inlet = o.value("inlet", false);
+    auto& cells = rows.emplace_back();
+    const auto add = [&](const std::string& path, double factor) {
+      const json value = at(o, path);
+      if (!value.is_number()) return cells.push_back("–");
+      const double shown = factor * value.get<double>();
+      const bool is_flow = path.starts_with("flow");
+      cells.push_back(figure(is_flow && std::abs(shown) < 1e-9 * most ? 0.0 : shown) +
+                      band(r, fmt::format("openings/{}/{}", name, path)) + mark(o));
+    };
+    cells.push_back(readable(name) + (inlet ? " (inlet)" : ""));
+    cells.push_back(figure(at(o, "lumen")));
+    for (const char* which : {"systolic", "diastolic", "mean"}) add(fmt::format("pressure/{}_mmHg", which), 1);
+    const double sign = inlet ? -1 : 1;
+    add("flow_outwards/mean_ml_s", sign);
+    add(inlet ? "flow_outwards/smallest_ml_s" : "flow_outwards/largest_ml_s", sign);
+    add(inlet ? "flow_outwards/largest_ml_s" : "flow_outwards/smallest_ml_s", sign);
+    add("share_of_outflow", 100);
+  }
+  return "<h3>Openings</h3>\n" +
+         drawing::page::table({"opening", "lumen", "systolic [mmHg]", "diastolic [mmHg]", "mean [mmHg]",
+                               "mean flow [ml/s]", "largest", "smallest", "share of the outflow [%]"},
+                              rows,
+                              "Flow is positive into the vessel at the inlet and out of it at all other openings");
 }
 
 std::string tears(const Results& r) {
@@ -131,8 +166,7 @@ std::string stress(const Results& r) {
     for (const auto& [key, values] : region.items()) {
       if (!values.is_object()) continue;
       head = {"region", "stress"};
-      std::vector<std::string> cells = {drawing::page::escaped(region.value("name", "")),
-                                        drawing::page::escaped(name_of(key))};
+      std::vector<std::string> cells = {readable(region.value("name", "")), drawing::page::escaped(name_of(key))};
       for (const auto& [when, label] :
            {std::pair{"at_peak", "at peak pressure"}, {"cycle_maximum", "largest of the cycle"}})
         for (const auto& [percent, value] : values[when].items()) {
@@ -182,12 +216,15 @@ std::string cycle_part(const Results& r, const std::vector<viewer::Plot>& plots)
                       figure(at(r.post, "window/from_s")), figure(at(r.post, "window/until_s")),
                       figure(at(r.post, "window/fields")), figure(at(r.post, "peak_s")));
   for (const auto& left : at(r.post, "left_out")) text += missing(left.value("part", ""), left.value("why", ""));
-  for (const auto& warning : at(r.post, "warnings")) text += missing("Warning", warning.get<std::string>());
+  const json d = at(r.post, "numerical_dissipation");
+  const auto of_scheme = d.is_null() ? std::nullopt : warning_of(artifacts::dissipation_from_json(d));
+  for (const auto& warning : at(r.post, "warnings"))
+    if (warning != of_scheme.value_or("")) text += missing("Warning", warning.get<std::string>());  // that one is below
   if (r.bands.is_object())
     text += "<p>± is the error band of <code>tunica converge</code>, from finer meshes and smaller steps.</p>\n";
   if (r.bands.is_boolean())
     text += missing("Error bands", "those of converge/ are of other figures than these; do `tunica converge` anew");
-  if (const json d = at(r.post, "numerical_dissipation"); !d.is_null()) text += dissipation_table(d);
+  if (!d.is_null()) text += dissipation_table(d);
   return text + openings(r) + curves(plots, "Pressure at the openings") + curves(plots, "Flow at the openings") +
          difference(r) + curves(plots, "Pressure of the true") + curves(plots, "Pressure along") +
          curves(plots, "Flow along") + curves(plots, "Area along") + tears(r) +

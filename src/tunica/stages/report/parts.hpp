@@ -46,6 +46,8 @@ std::string drawings(const std::filesystem::path& folder,
 /// Figures beside targets and published values; is the beat periodic, what is not resolved. The first of `plots` are
 /// the pressures of the openings.
 std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots);
+/// Pressures that were asked for at the inlet as dotted lines in the first plot, that of the pressures of the openings.
+void add_targets(const Results& r, std::vector<viewer::Plot>& plots);
 std::string summary_part(const Results& r, const artifacts::ProgramVersion& program);
 std::string mesh_part(const Results& r);
 std::string fibres_part(const Results& r);

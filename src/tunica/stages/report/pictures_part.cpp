@@ -26,9 +26,6 @@ Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
 /// The few extreme values at edges would make one colour of all the others.
 constexpr double shown = 99;
 
-/// Pixels of pictures of a whole vessel, which stands upright.
-constexpr int whole[] = {900, 1100};
-
 /// What is drawn of a case, in the unit of its files.
 struct Scene {
   std::vector<std::string> lumen, wall;  ///< series of fields
@@ -108,12 +105,14 @@ void draw_fields(const Scene& scene, Album& album) {
     options.time = scene.peak;
     options.percentile = shown;
     if (scene.plane) options.view = scene.plane->normal;
-    options.width = whole[0], options.height = whole[1];
     return options;
   };
   const std::string when = scene.peak ? "at peak pressure" : "at the end";
   if (!scene.lumen.empty()) {
     album.add(of(scene.lumen, "pressure"), "Pressure of the blood " + when);
+    auto lines = of(scene.lumen, "");
+    lines.streamlines = "velocity";
+    album.add(lines, "Streamlines of the blood, by their speed, " + when);
     if (scene.plane) {
       auto cut = of(scene.lumen, "velocity");
       cut.clip = scene.plane;
@@ -170,7 +169,6 @@ std::string pictures_part(const Results& r, const files::Say& say) {
       options.inputs = {scene.shear};
       options.array = array;
       options.percentile = shown;
-      options.width = whole[0], options.height = whole[1];
       if (scene.plane) options.view = scene.plane->normal;
       album.add(options, fmt::format("{} on the wall of the lumen", array));
     }

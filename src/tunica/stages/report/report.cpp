@@ -31,7 +31,7 @@ Schema<fs::path> folder_schema() {
 }
 
 std::string case_part(const ReportCase& report) {
-  return "<h2 id=\"case\">Case file</h2>\n<details><summary>" +
+  return "<h2 id=\"case\">Case file</h2>\n<details class=\"fine\"><summary>" +
          drawing::page::escaped(report.case_file.filename().string()) + "</summary><pre>" +
          drawing::page::escaped(config::read_text(report.case_file)) + "</pre></details>\n";
 }
@@ -103,7 +103,8 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   namespace part = stages::report;
   const auto r = part::read_results(report);
   const BeatSource source{r.folder("run") / "case.yaml", r.folder("run"), r.post};
-  const auto plots = collect_plots(source, r.folder("post"));
+  auto plots = collect_plots(source, r.folder("post"));
+  part::add_targets(r, plots);
   const View view = view_of(r, source, say);
   std::string text = viewer::begin_page(report.title.empty() ? "Report" : report.title) + contents;
   text += part::answer_part(r, plots) + view.text + part::mesh_part(r) + part::fibres_part(r);

@@ -1,6 +1,9 @@
 // Summary, and the stages before the run.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "tunica/config/description.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
@@ -13,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double mmHg = 133.322387415;  // Pa
+/// More than these are no tears that anybody has named, and stand in one line.
+constexpr auto most_tears = 12;
 
 json at(const json& object, const char* key) {
   return object.is_object() && object.contains(key) ? object.at(key) : json();
@@ -44,7 +49,7 @@ std::string settings_table(const Results& r) {
   const json settings = at(run->second, "settings");
   for (const auto& [key, value] : settings.items())
     rows.push_back({drawing::page::escaped(key), drawing::page::escaped(value.get<std::string>())});
-  return "<details><summary>All settings of the run, in SI units</summary>\n" +
+  return "<details class=\"fine\"><summary>All settings of the run, in SI units</summary>\n" +
          drawing::page::table({"key", "value"}, rows) + "</details>\n";
 }
 
@@ -52,9 +57,23 @@ std::string settings_table(const Results& r) {
 std::string across_table(const json& parts) {
   if (!parts.is_array() || parts.empty()) return "";
   std::vector<std::vector<std::string>> rows;
-  for (const auto& part : parts)
+  std::size_t tears = 0;
+  double least = std::numeric_limits<double>::infinity(), median = least;
+  const auto is_tear = [](const json& part) { return part.value("name", "").starts_with("tear "); };
+  const bool many = std::count_if(parts.begin(), parts.end(), is_tear) > most_tears;
+  for (const auto& part : parts) {
+    if (many && is_tear(part)) {
+      ++tears;
+      least = std::min(least, part.value("least", least));
+      median = std::min(median, part.value("median", median));
+      continue;
+    }
     rows.push_back(
         {drawing::page::escaped(part.value("name", "")), figure(at(part, "least"), 3), figure(at(part, "median"), 3)});
+  }
+  if (many)
+    rows.push_back(
+        {fmt::format("the worst of {} places where the lumens touch", tears), figure(least, 3), figure(median, 3)});
   return "<p>Elements across the lumen; flow needs 4 quadratic or 10 linear ones.</p>\n" +
          drawing::page::table({"part", "least", "median"}, rows);
 }

@@ -81,6 +81,7 @@
     const seconds = beat.times[a] + (frame - a) * (beat.times[b] - beat.times[a]);
     const whole = beat.times[beat.frames - 1] - beat.times[0];
     byId('now').textContent = beat.frames > 1 ? `${(1000 * (seconds - beat.times[0])).toFixed(whole < 0.05 ? 1 : 0)} ms` : '';
+    byId('of-run').textContent = beat.frames > 1 && beat.times[0] !== 0 ? `${+seconds.toPrecision(4)} s of the run` : '';
     byId('time').value = clock.at;
     byId('time').setAttribute('aria-valuetext', byId('now').textContent);
     document.dispatchEvent(new CustomEvent('tunica-time', { detail: seconds }));
@@ -182,8 +183,9 @@
   function overlay() {
     const on = byId('show-labels').checked, taken = [];
     beat.labels.forEach((l, k) => {
-      const [x, y] = scene.project(l.place), width = 6.5 * l.text.length + 10;
-      const free = !taken.some(t => Math.abs(t[1] - y) < 16 && x < t[0] + t[2] && t[0] < x + width);
+      const [x, at] = scene.project(l.place), width = 6.5 * l.text.length + 10;
+      const isFree = y => !taken.some(t => Math.abs(t[1] - y) < 16 && x < t[0] + t[2] && t[0] < x + width);
+      const y = [0, 16, -16, 32, -32].map(d => at + d).find(isFree), free = y !== undefined;
       const inside = x > 0 && y > 8 && x < view.clientWidth - 20 && y < view.clientHeight - 8;
       labels[k].hidden = !(on && free && inside);
       if (labels[k].hidden) return;

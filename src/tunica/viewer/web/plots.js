@@ -175,9 +175,15 @@
   const drawn = [...document.querySelectorAll('figure[data-plot]')].map(f => new Plot(f, plots[+f.dataset.plot]));
   document.addEventListener('tunica-time', e => drawn.forEach(p => p.showInstant(e.detail)));
 
+  // On paper everything is open.
+  let opened = [];
+  window.addEventListener('beforeprint', () => { opened = [...document.querySelectorAll('details:not([open], .help)')]; opened.forEach(d => { d.open = true; }); });
+  window.addEventListener('afterprint', () => { opened.forEach(d => { d.open = false; }); });
+
   // Tables that sort: a click on a heading.
   for (const table of document.querySelectorAll('table.sorts'))
     table.querySelectorAll('thead th').forEach((head, column) => {
+      if (!head.textContent.trim()) return;
       const button = document.createElement('button');
       Object.assign(button, { type: 'button', textContent: head.textContent });
       head.textContent = '';
