@@ -59,8 +59,8 @@ def visit_formula(display):
         result = set_formula(node.astext(), display)
         if "error" in result:
             raise RuntimeError(f"{translator.builder.current_docname}: formula `{node.astext()}`: {result['error']}")
-        tag, kind = ("div", "math display") if display else ("span", "math")
-        translator.body.append(f'<{tag} class="{kind}">{result["html"]}</{tag}>')
+        tag, kind = ("div", 'class="math display" tabindex="0"') if display else ("span", 'class="math"')
+        translator.body.append(f'<{tag} {kind}>{result["html"]}</{tag}>')
         raise nodes.SkipNode
     return visit
 
@@ -86,10 +86,13 @@ def mend_theme(app):
         script.write_text(text.replace(part[0], module), encoding="utf-8")
 
 
-def level_captions(app, page, template, context, doctree):
-    """Captions of the contents are headings, and a heading has a level."""
+def make_accessible(app, page, template, context, doctree):
+    """Captions of the contents are headings, and a heading has a level; what scrolls can be reached by the keyboard."""
     if "furo_navigation_tree" in context:
         context["furo_navigation_tree"] = context["furo_navigation_tree"].replace('role="heading"', 'role="heading" aria-level="2"')
+    if "body" in context:
+        body = context["body"].replace('<div class="highlight"><pre>', '<div class="highlight"><pre tabindex="0">')
+        context["body"] = body.replace('<div class="table-wrapper', '<div tabindex="0" class="table-wrapper')
 
 
 def finish(app, error):
@@ -100,7 +103,7 @@ def finish(app, error):
 
 def setup(app):
     app.add_html_math_renderer("katex", (visit_formula(False), None), (visit_formula(True), None))
-    app.connect("html-page-context", level_captions, priority=900)
+    app.connect("html-page-context", make_accessible, priority=900)
     app.connect("build-finished", finish)
 
 
