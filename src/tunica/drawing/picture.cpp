@@ -96,7 +96,7 @@ void set_data(vtkPolyDataMapper& mapper, const Layer& layer, double size) {
   if (!layer.lines) return mapper.SetInputData(layer.surface.get());
   vtkNew<vtkTubeFilter> tubes;
   tubes->SetInputData(layer.surface.get());
-  tubes->SetRadius(0.0012 * size);
+  tubes->SetRadius(0.002 * size);
   tubes->SetNumberOfSides(8);
   mapper.SetInputConnection(tubes->GetOutputPort());
 }

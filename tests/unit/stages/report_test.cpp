@@ -67,11 +67,18 @@ TEST(Report, OpensOnWhatWasFoundBesideTargets) {
   const std::string page = test::slurp(report_to_file(c, {"1", "abc"}, true, [](const std::string&) {}));
   EXPECT_LT(place(page, "id=\"answer\""), place(page, "id=\"mesh\""));
   EXPECT_LT(place(page, "id=\"mesh\""), place(page, "id=\"run\""));
-  place(page, "<td>131</td><td>mmHg</td><td><span class=\"aside\">target 125.0 ± 2 %</span></td><td><span class=\"bad\">outside</span></td>");
-  place(page, "<td>75.5</td><td>mmHg</td><td><span class=\"aside\">target 75.0 ± 2 %</span></td><td><span class=\"good\">within</span></td>");
-  place(page, "<td>49.5</td><td>%</td><td><span class=\"aside\">target 50 ± 2 %</span></td><td><span class=\"good\">within</span></td>");
   place(page,
-        "<td>0.25</td><td>Pa</td><td><span class=\"aside\">endothelium is quiescent above 1.5 and atherogenic below 0.4 (Malek et al. 1999, "
+        "<td>131</td><td>mmHg</td><td><span class=\"aside\">target 125.0 ± 2 %</span></td><td><span "
+        "class=\"bad\">outside</span></td>");
+  place(page,
+        "<td>75.5</td><td>mmHg</td><td><span class=\"aside\">target 75.0 ± 2 %</span></td><td><span "
+        "class=\"good\">within</span></td>");
+  place(page,
+        "<td>49.5</td><td>%</td><td><span class=\"aside\">target 50 ± 2 %</span></td><td><span "
+        "class=\"good\">within</span></td>");
+  place(page,
+        "<td>0.25</td><td>Pa</td><td><span class=\"aside\">endothelium is quiescent above 1.5 and atherogenic below "
+        "0.4 (Malek et al. 1999, "
         "JAMA 282:2035)</span></td>"
         "<td><span class=\"bad\">outside</span></td>");
   place(page, "Left out: flap");
