@@ -37,7 +37,7 @@ const Beside strength = {
     "et al. 2003, after table 1 of Sherifova & Holzapfel 2019, Acta Biomater 99:1)"};
 
 const Beside systolic_at_rest = {
-    90, 120, "at rest usually 90 to 120; above is elevated (Whelton et al. 2018, Hypertension 71:e13)"};
+    0, 120, "below 120 at rest is normal, above it elevated (Whelton et al. 2018, Hypertension 71:e13)"};
 const Beside stable_lumen = {0, 0.22,
                              "backflow over inflow at the entry tear: 0.10 ± 0.12 in stable, 0.49 ± 0.18 in growing "
                              "chronic dissections (Marlevi et al. 2021, J Cardiovasc Magn Reson 23:51)"};
