@@ -439,16 +439,16 @@ Problem::Targets Problem::start(State& next, const Instant& instant, double& nor
 // linear residual: whether the step converges is decided by the nonlinear residual alone.
 constexpr double usable_linear_residual = 0.05;
 
-// How far a linear system is worth being solved (Dembo, Eisenstat & Steihaug 1982). An iteration leaves a share of the
-// residual, because the tangent holds tau and the inner mesh fixed: about 3 % in the first one of a step, and then what
-// the one before has left (0.3 to 1 % with quadratic elements). While that is more than what ends the step, another one
-// follows anyway, and what is left of the linear residual need not be less. The last one leaves so little that the
-// balance of mass, which the norm hardly knows, closes to 1e-6 at the default tolerances.
-constexpr double first_rate = 0.03, last_share = 0.03;
+// How far a linear system is worth being solved (Dembo, Eisenstat & Steihaug 1982). An iteration leaves about 3 % of
+// the residual, because the tangent holds tau and the inner mesh fixed. While that is more than what ends the step,
+// another one follows anyway, and what is left of the linear residual need not be less. The last one leaves so little
+// that the balance of mass, which the norm hardly knows, closes to 1e-6 at the default tolerances. Where iterations
+// leave less than 3 %, the last one still begins close to the end, since the mesh that follows it unbalances mass.
+constexpr double newton_rate = 0.03, last_share = 0.03;
 
-double useful_residual(const LinearSettings& linear, double norm, double rate, double target) {
+double useful_residual(const LinearSettings& linear, double norm, double target) {
   if (linear.first_tolerance <= linear.tolerance) return 0;
-  return rate * norm > target ? std::max(linear.first_tolerance * norm, 2 * target) : last_share * target;
+  return newton_rate * norm > target ? std::max(linear.first_tolerance * norm, 2 * target) : last_share * target;
 }
 
 bool Problem::solve_increment(NewtonRecord& record, double absolute, std::string& failure) {
@@ -482,7 +482,7 @@ std::optional<double> Problem::line_search(const State& old_state, State& next, 
 }
 
 void Problem::iterate(const State& old_state, State& next, const Instant& instant, StepReport& report) {
-  double norm = 0, rate = first_rate;
+  double norm = 0;
   update_present_modulus(old_state);
   const Targets target = start(next, instant, norm);
   const double first = norm;
@@ -512,11 +512,10 @@ void Problem::iterate(const State& old_state, State& next, const Instant& instan
     }
     NewtonRecord& record = report.iterations.emplace_back();
     record.norm = norm;
-    const double enough = useful_residual(input_.linear, norm, rate, target.converged);
+    const double enough = useful_residual(input_.linear, norm, target.converged);
     if (!solve_increment(record, enough, report.failure)) return;
     const auto new_norm = line_search(old_state, next, instant, norm, target.converged, record, report.failure);
     if (!new_norm) return;
-    rate = *new_norm / norm;
     norm = *new_norm;
   }
 }
