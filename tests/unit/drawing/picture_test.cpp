@@ -95,6 +95,18 @@ class Picture : public testing::Test {
     return options;
   }
 
+  /// A movie of two cubes in a series that lists the later one first: pressures from 0 to 2, then from 5 to 7.
+  PictureOptions movie_of_two_steps() const {
+    write_cube("a.vtu");
+    write_cube("b.vtu", 5.0);
+    std::ofstream(file("series.pvd")) << "<?xml version=\"1.0\"?><VTKFile type=\"Collection\"><Collection>"
+                                         "<DataSet timestep=\"0.2\" file=\"b.vtu\"/>"
+                                         "<DataSet timestep=\"0.1\" file=\"a.vtu\"/></Collection></VTKFile>";
+    auto options = front(file("series.pvd"));
+    options.movie = true;
+    return options;
+  }
+
   /// Colours across the picture at a height given as a fraction from below.
   std::vector<Colour> row(double height) const {
     vtkNew<vtkPNGReader> reader;
@@ -276,13 +288,7 @@ TEST_F(Picture, StreamlinesFollowVectors) {
 }
 
 TEST_F(Picture, MoviesHaveAllStepsInTheSameColours) {
-  write_cube("a.vtu");
-  write_cube("b.vtu", 5.0);
-  std::ofstream(file("series.pvd")) << "<?xml version=\"1.0\"?><VTKFile type=\"Collection\"><Collection>"
-                                       "<DataSet timestep=\"0.2\" file=\"b.vtu\"/>"
-                                       "<DataSet timestep=\"0.1\" file=\"a.vtu\"/></Collection></VTKFile>";
-  auto options = front(file("series.pvd"));
-  options.movie = true;
+  auto options = movie_of_two_steps();
   options.width = 401;
   options.output = file("movie.png");
   const auto summary = render(options);
@@ -298,13 +304,7 @@ TEST_F(Picture, MoviesHaveAllStepsInTheSameColours) {
 
 TEST_F(Picture, MoviesAreEncoded) {
   if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
-  write_cube("a.vtu");
-  write_cube("b.vtu", 5.0);
-  std::ofstream(file("series.pvd")) << "<VTKFile type=\"Collection\"><Collection>"
-                                       "<DataSet timestep=\"0.2\" file=\"b.vtu\"/>"
-                                       "<DataSet timestep=\"0.1\" file=\"a.vtu\"/></Collection></VTKFile>";
-  auto options = front(file("series.pvd"));
-  options.movie = true;
+  auto options = movie_of_two_steps();
   for (const auto& [name, begin] :
        {std::pair<std::string, std::string>{"movie.gif", "GIF89a"}, {"movie.webm", "\x1a\x45\xdf\xa3"}}) {
     options.output = file(name);

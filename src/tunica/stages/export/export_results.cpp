@@ -10,6 +10,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cmath>
+#include <span>
 
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/artifacts/histories.hpp"
@@ -18,6 +19,7 @@
 #include "tunica/case/case.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
 #include "tunica/peer_cases/unit_system.hpp"
 
@@ -80,13 +82,16 @@ class VolumeFiles {
  public:
   VolumeFiles(const case_file::Case& c, const mesh::MeshData& data, const Units& units)
       : fluid_(c.solves_fluid()), wall_(c.solves_wall()), data_(data), units_(units) {
-    for (const auto& region : data.regions) initial_.push_back(integrals(region, {}));
+    for (const auto& region : data.regions) initial_.push_back(integrals(region, data.points, {}));
   }
 
   void add(std::int64_t step, const analysis::FieldFrame& frame) {
+    auto points = data_.points;
+    for (std::size_t n = 0; n < points.size() && !frame.displacement.empty(); ++n)
+      for (int i = 0; i < 3; ++i) points[n][i] += frame.displacement[3 * n + static_cast<std::size_t>(i)];
     std::string pressures, jacobians;
     for (std::size_t r = 0; r < data_.regions.size(); ++r) {
-      const auto now = integrals(data_.regions[r], frame);
+      const auto now = integrals(data_.regions[r], points, frame.pressure);
       const bool lumen = data_.regions[r].kind == mesh::RegionKind::lumen;
       (lumen ? pressures : jacobians) += fmt::format(
           " {:.10e} ", lumen ? now.pressure / now.volume / units_.pressure : now.volume / initial_[r].volume);
@@ -111,21 +116,16 @@ class VolumeFiles {
   struct Integrals {
     double volume = 0, pressure = 0;
   };
-  /// Of the moved corners.
-  Integrals integrals(const mesh::RegionData& region, const analysis::FieldFrame& frame) const {
+  /// Of the corners at `points`; without `pressure` its integral is 0.
+  Integrals integrals(const mesh::RegionData& region, const std::vector<Vec3<double>>& points,
+                      std::span<const double> pressure) const {
     Integrals sum;
     for (auto e = region.first_element; e < region.end_element; ++e) {
-      Vec3<double> x[4];
-      double pressure = 0;
-      for (std::size_t a = 0; a < 4; ++a) {
-        const auto n = static_cast<std::size_t>(data_.tetrahedra[static_cast<std::size_t>(e)][a]);
-        x[a] = data_.points[n];
-        for (int i = 0; i < 3 && !frame.displacement.empty(); ++i)
-          x[a][i] += frame.displacement[3 * n + static_cast<std::size_t>(i)];
-        if (!frame.pressure.empty()) pressure += frame.pressure[n] / 4;
-      }
-      const double volume = dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
-      sum.volume += volume, sum.pressure += volume * pressure;
+      const auto& corners = data_.tetrahedra[static_cast<std::size_t>(e)];
+      const double volume = mesh::volume(points, corners);
+      sum.volume += volume;
+      for (std::size_t a = 0; a < 4 && !pressure.empty(); ++a)
+        sum.pressure += volume * pressure[static_cast<std::size_t>(corners[a])] / 4;
     }
     return sum;
   }
