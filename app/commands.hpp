@@ -23,7 +23,7 @@ void add_converge(CLI::App& app);
 void add_export(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_fit(CLI::App& app);
-void add_image(CLI::App& app);
+void add_synthesise(CLI::App& app);
 void add_import(CLI::App& app);
 void add_manual(CLI::App& app);
 void add_material(CLI::App& app);

@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
   tunica::app::add_export(app);
   tunica::app::add_fibres(app);
   tunica::app::add_fit(app);
-  tunica::app::add_image(app);
+  tunica::app::add_synthesise(app);
   tunica::app::add_import(app);
   tunica::app::add_manual(app);
   tunica::app::add_material(app);

@@ -42,6 +42,7 @@ int run_stages(const Options& o) {
   if (!o.from.empty()) request.from = o.from;
   request.overwrite = o.request.overwrite;
   request.dry_run = o.dry_run;
+  request.verbose = o.request.verbose;
   request.program = o.request.program;
   const int signal = pipeline::run_chain(request, MPI_COMM_WORLD, stdout);
   return signal == 0 ? 0 : 128 + signal;
@@ -99,7 +100,7 @@ void add_run(CLI::App& app) {
       "  tunica run case.yaml --dry-run                      what would be done, and why\n"
       "  tunica run case.yaml --until prestress              no further than that stage\n"
       "  tunica run case.yaml --from fibres                  that stage and all after it anew\n"
-      "Results: time series for ParaView (.pvd), histories (.csv), checkpoints, manifest.json, run.log.\n"
+      "Results: results.xdmf for ParaView, fields (.hdf), histories (.csv), checkpoints, manifest.json, run.log.\n"
       "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP (a terminal that is closed; not under nohup) end the run after the present\n"
       "time step with a checkpoint, and so does an error. A reader of the output that goes away does not end it.\n"
       "mpirun leaves a second for that, `mpirun --mca odls_base_sigkill_timeout 10 ...` ten, and as long as it takes "
@@ -129,6 +130,8 @@ void add_run(CLI::App& app) {
       ->add_option("--units", options->units,
                    "Units of a solver.xml or .inp file, as for tunica import: cgs, mmgs or si")
       ->type_name("SYSTEM");
+  command->add_flag("-v,--verbose", options->request.verbose,
+                    "A line for each time step on the terminal, and what else run.log holds");
   command->add_flag("--dry-run", options->dry_run, "Print which stage would be done, and why");
   command->callback([=] {
     stages::RunRequest& request = options->request;

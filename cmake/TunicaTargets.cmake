@@ -61,7 +61,7 @@ function(tunica_cgal_sources)
 endfunction()
 
 # The Python module is a shared library, so the rooms in it are position-independent.
-set(TUNICA_POSITION_INDEPENDENT base config files fe mesh mesh_io wall)
+set(TUNICA_POSITION_INDEPENDENT base config files fe mesh field_io mesh_io wall)
 
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
 # LINK names exactly what the include table in ARCHITECTURE.md allows.

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "tunica/field_io/series_index.hpp"
 #include "tunica/files/csv_file.hpp"
-#include "tunica/files/series_file.hpp"
-#include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::python {
 
@@ -31,44 +30,36 @@ py::dict read_table(const fs::path& file, const std::string& remedy) {
 /// (time [s], file) of each entry.
 std::vector<std::pair<double, std::string>> read_series(const fs::path& file) {
   std::vector<std::pair<double, std::string>> entries;
-  for (const auto& e : files::read_pvd(file)) entries.emplace_back(e.time, e.file);
+  for (const auto& e : field_io::read_series(file)) entries.emplace_back(e.time, e.file);
   return entries;
 }
 
-py::tuple read_pieces(const fs::path& file) {
-  const mesh_io::VtkPieces pieces = mesh_io::read_vtk_pieces(file);
-  return py::make_tuple(pieces.files, pieces.point_arrays, pieces.cell_arrays);
+/// (count, components), or (count,) of one component.
+template <class To, class From>
+py::array_t<To> array(const std::vector<From>& values, std::size_t components) {
+  py::array_t<To> result(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), result.mutable_data());
+  if (components == 1) return result;
+  return result.reshape({static_cast<py::ssize_t>(values.size() / components), static_cast<py::ssize_t>(components)});
 }
 
-template <class T, class From>
-py::array_t<T> array(const From& from) {
-  py::array_t<T> result(static_cast<py::ssize_t>(from.size()));
-  std::copy(from.begin(), from.end(), result.mutable_data());
-  return result;
+/// Points, cells, numbers of nodes and elements in the mesh of the case.
+py::tuple read_mesh(const fs::path& file) {
+  const field_io::RegionMesh mesh = field_io::FieldFile(file).read_mesh();
+  return py::make_tuple(array<double>(mesh.points, 3),
+                        array<std::int64_t>(mesh.cells, static_cast<std::size_t>(mesh.nodes_of_cell)),
+                        array<std::int64_t>(mesh.node_ids, 1), array<std::int64_t>(mesh.element_ids, 1));
 }
 
-template <class Fields>
-py::dict arrays(const Fields& fields, std::size_t count) {
-  py::dict result;
-  for (const auto& field : fields) {
-    const auto components = static_cast<py::ssize_t>(field.values.size() / std::max<std::size_t>(count, 1));
-    py::array_t<double> values = array<double>(field.values);
-    if (components != 1) values = values.reshape({static_cast<py::ssize_t>(count), components});
-    result[py::str(field.name)] = values;
-  }
-  return result;
-}
-
-/// Points, types, offsets, connectivity, point arrays, cell arrays of a .vtu, in its units.
-py::tuple read_volume(const fs::path& file, const std::vector<std::string>& point_arrays,
-                      const std::vector<std::string>& cell_arrays) {
-  const mesh_io::VtkCells cells = mesh_io::read_vtk_volume(file, cell_arrays, point_arrays);
-  py::array_t<double> points({static_cast<py::ssize_t>(cells.points.size()), py::ssize_t{3}});
-  for (std::size_t k = 0; k < cells.points.size(); ++k)
-    std::copy(cells.points[k].x, cells.points[k].x + 3, points.mutable_data() + 3 * k);
-  return py::make_tuple(points, array<std::uint8_t>(cells.types), array<std::int64_t>(cells.offsets),
-                        array<std::int64_t>(cells.connectivity), arrays(cells.point_fields, cells.points.size()),
-                        arrays(cells.fields, cells.types.size()));
+/// Arrays of the nodes and of the cells, in the units of the file.
+py::tuple read_fields(const fs::path& path) {
+  const field_io::FieldFile file(path);
+  py::dict points, cells;
+  for (const auto& head : file.point_arrays())
+    points[py::str(head.name)] = array<double>(file.read_points(head.name), static_cast<std::size_t>(head.components));
+  for (const auto& head : file.cell_arrays())
+    cells[py::str(head.name)] = array<double>(file.read_cells(head.name), static_cast<std::size_t>(head.components));
+  return py::make_tuple(points, cells);
 }
 
 }  // namespace
@@ -76,8 +67,8 @@ py::tuple read_volume(const fs::path& file, const std::vector<std::string>& poin
 void bind_results(py::module_& m) {
   m.def("read_table", &read_table);
   m.def("read_series", &read_series);
-  m.def("read_pieces", &read_pieces);
-  m.def("read_volume", &read_volume);
+  m.def("read_mesh", &read_mesh);
+  m.def("read_fields", &read_fields);
 }
 
 }  // namespace tunica::python

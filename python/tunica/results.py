@@ -37,23 +37,23 @@ class Fields:
     """The fields of one region at one instant, as the files have them: units stand in the names.
 
     ``points`` (n, 3) in the initial mesh, in the length unit of the output; ``point_data`` and ``cell_data``: arrays
-    (n,) or (n, components) by name; ``cells``: nodes of each cell (cells, nodes of a cell); ``time`` [s]. What several
-    ranks have written is put together, nodes that they share stand once.
+    (n,) or (n, components) by name; ``cells``: nodes of each cell (cells, 4 or 10); ``node_ids``, ``element_ids``: their
+    numbers in the mesh of the case, ascending; ``time`` [s]; ``file``. A field is found by its name with or without
+    unit. All instants of a region share points, cells and numbers.
     """
 
-    def __init__(self, time, files, points, types, cells, point_data, cell_data):
+    def __init__(self, time, file, mesh, point_data, cell_data):
         self.time = time
-        self.files = files
-        self.points = points
-        self.types = types
-        self.cells = cells
+        self.file = file
+        self.points, self.cells, self.node_ids, self.element_ids = mesh
         self.point_data = point_data
         self.cell_data = cell_data
 
     def __getitem__(self, name):
         for data in (self.point_data, self.cell_data):
-            if name in data:
-                return data[name]
+            for key, values in data.items():
+                if name in (key, key.split(" [")[0]):
+                    return values
         raise KeyError(f"{name!r}; there are " + ", ".join(repr(n) for n in self.keys()))
 
     def keys(self):
@@ -71,8 +71,8 @@ class Fields:
         grid.SetPoints(points)
         offsets = np.arange(len(self.cells) + 1, dtype=np.int64) * self.cells.shape[1]
         cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True),
-                      numpy_to_vtkIdTypeArray(np.ascontiguousarray(self.cells.ravel()), deep=True))
-        grid.SetCells(int(self.types[0]) if len(self.types) else 10, cells)
+                      numpy_to_vtkIdTypeArray(np.ascontiguousarray(self.cells.ravel(), dtype=np.int64), deep=True))
+        grid.SetCells(24 if self.cells.shape[1] == 10 else 10, cells)  # VTK_QUADRATIC_TETRA, VTK_TETRA
         for data, target in ((self.point_data, grid.GetPointData()), (self.cell_data, grid.GetCellData())):
             for name, values in data.items():
                 array = numpy_to_vtk(values, deep=True)
@@ -110,6 +110,7 @@ class Results:
             raise _error(self.path, f"holds a run that is not finished: {self.status}" + (f" ({message})" * bool(message)),
                          "go on with it by `tunica run CASE --restart`, or open what there is with unfinished=True")
         self._series = {region: self._read_series(region) for region in self.regions}
+        self._meshes = {}
 
     @property
     def case_text(self):
@@ -146,11 +147,18 @@ class Results:
         try:
             time, file = entries[instant]
         except IndexError:
-            raise _error(f"{region}.pvd", f"has {len(entries)} instants, number {instant} is none of them",
+            raise _error(f"{region}.hdf.series", f"has {len(entries)} instants, number {instant} is none of them",
                          "see times()") from None
-        pieces, point_arrays, cell_arrays = _core.read_pieces(self.path / file)
-        parts = [_core.read_volume(piece, point_arrays, cell_arrays) for piece in pieces]
-        return _joined(time, [Path(p) for p in pieces], parts)
+        if region not in self._meshes:
+            self._meshes[region] = _core.read_mesh(self.path / f"{region}_mesh.hdf")
+        mesh, file = self._meshes[region], self.path / file
+        point_data, cell_data = _core.read_fields(file)
+        for data, count in ((point_data, len(mesh[0])), (cell_data, len(mesh[1]))):
+            for name, values in data.items():
+                if len(values) != count:
+                    raise _error(file, f"`{name}` is not of the size of the mesh",
+                                 "put the file back, or run the case again with --overwrite")
+        return Fields(time, file, mesh, point_data, cell_data)
 
     def _entries(self, region):
         if region not in self._series:
@@ -158,18 +166,13 @@ class Results:
         return self._series[region]
 
     def _read_series(self, region):
-        entries = _core.read_series(self.path / f"{region}.pvd")
+        series, again = f"{region}.hdf.series", "put the file back, or run the case again with --overwrite"
+        entries = _core.read_series(self.path / series)
         if not entries:
-            raise _error(self.path / f"{region}.pvd", "is missing, or names no instant",
-                         "put the file back, or run the case again with --overwrite")
-        for _, file in entries:
-            names = [self.path / file]
-            if names[0].is_file():
-                names += _core.read_pieces(names[0])[0]
-            for name in names:
-                if not Path(name).is_file():
-                    raise _error(name, f"is missing, but {region}.pvd names it",
-                                 "put the file back, or run the case again with --overwrite")
+            raise _error(self.path / series, "is missing, or names no instant", again)
+        for name in [f"{region}_mesh.hdf", *(file for _, file in entries)]:
+            if not (self.path / name).is_file():
+                raise _error(self.path / name, f"is missing, but {series} names it", again)
         return entries
 
     def __repr__(self):
@@ -230,27 +233,3 @@ def open_results(folder, unfinished=False):
         return Pipeline(path, unfinished)
     raise _error(path, "holds no results of `tunica run`: neither manifest.json nor folders of stages",
                  "name the folder that `tunica run` has written its results into")
-
-
-def _cells(types, offsets, connectivity):
-    if len(types) == 0:
-        return np.empty((0, 4), dtype=np.int64)
-    sizes = np.diff(offsets)
-    if len(set(types.tolist())) > 1 or sizes.min() != sizes.max():
-        raise _error("fields", "have cells of several kinds", "open the files with VTK")
-    return connectivity.reshape(-1, sizes[0])
-
-
-def _joined(time, files, parts):
-    """Pieces of several ranks put together; nodes are told apart by their coordinates, the same to the last bit."""
-    points = np.concatenate([part[0] for part in parts])
-    types = np.concatenate([part[1] for part in parts])
-    starts = np.cumsum([0] + [len(part[0]) for part in parts])
-    cells = np.concatenate([_cells(*part[1:4]) + start for part, start in zip(parts, starts) if len(part[1])])
-    point_data = {name: np.concatenate([part[4][name] for part in parts]) for name in parts[0][4]}
-    cell_data = {name: np.concatenate([part[5][name] for part in parts]) for name in parts[0][5]}
-    if len(parts) > 1:
-        _, first, inverse = np.unique(points, axis=0, return_index=True, return_inverse=True)
-        points, cells = points[first], inverse.ravel()[cells]
-        point_data = {name: values[first] for name, values in point_data.items()}
-    return Fields(time, files, points, types, cells, point_data, cell_data)

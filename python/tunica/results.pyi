@@ -1,6 +1,6 @@
 from os import PathLike
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,19 +9,18 @@ _Floats = NDArray[np.float64]
 
 class Fields:
     time: float
-    files: List[Path]
+    file: Path
     points: _Floats
-    types: NDArray[np.uint8]
     cells: NDArray[np.int64]
+    node_ids: NDArray[np.int64]
+    element_ids: NDArray[np.int64]
     point_data: Dict[str, _Floats]
     cell_data: Dict[str, _Floats]
     def __init__(
         self,
         time: float,
-        files: List[Path],
-        points: _Floats,
-        types: NDArray[np.uint8],
-        cells: NDArray[np.int64],
+        file: Path,
+        mesh: Tuple[_Floats, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
         point_data: Dict[str, _Floats],
         cell_data: Dict[str, _Floats],
     ) -> None: ...

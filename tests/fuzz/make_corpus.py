@@ -423,10 +423,9 @@ def table_corpus():
     write("table/waveform/coefficients.fcs", "0.0 1.0\n2.0 0.5\n3\n-1.5 0\n0.5 -0.25\n0 1e-3\n")
     write("table/openings/names.csv",
           "name,centre_x,centre_y,centre_z,area\ninlet,0,0,0,1\nleft_iliac,1.5,-2,3e1,2\n# end\n")
-    write("table/series/series.pvd",
-          '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n  <Collection>\n'
-          '    <DataSet timestep="0" part="0" file="lumen_0.pvtu"/>\n'
-          '    <DataSet timestep="0.5" part="0" file="lumen_1.pvtu"/>\n  </Collection>\n</VTKFile>\n')
+    write("table/series/lumen.hdf.series",
+          '{\n  "file-series-version": "1.0",\n  "files": [\n    {"name": "lumen_000000.hdf", "time": 0},\n'
+          '    {"name": "lumen_000004.hdf", "time": 0.5}\n  ]\n}\n')
 
 
 def without_comments(path):

@@ -1,8 +1,8 @@
 // Tables of numbers, waveforms and openings, and lists of results.
 #include "fuzz/target.hpp"
 #include "tunica/bc/waveform.hpp"
+#include "tunica/field_io/series_index.hpp"
 #include "tunica/files/csv_file.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/geometry/openings.hpp"
 
 namespace tunica::fuzz {
@@ -17,7 +17,7 @@ void read_one(const std::filesystem::path& file, const std::string& kind) {
   else if (kind == "openings")
     geometry::read_opening_names(file, 1e-3);
   else if (kind == "series")
-    files::read_pvd(file);
+    field_io::read_series(file);
   else
     for (const auto interpolation : {bc::Interpolation::linear, bc::Interpolation::spline, bc::Interpolation::fourier})
       bc::make_waveform({.source = bc::TableSource{{.path = file}, {.interpolation = interpolation, .modes = 3}}});

@@ -20,14 +20,13 @@ struct FieldFrame {
   std::vector<std::vector<double>> stress;  ///< [quantity][element of MeshData] [Pa]; NaN where there is none
 };
 
-/// Reads the series of all regions, whatever number of ranks wrote them. Files hold no numbers of nodes and elements:
-/// they are found by the coordinates, which are those of the mesh to the last bit of a float.
+/// Reads the series of all regions. Nodes and elements are found by the coordinates, which are those of the mesh to the
+/// last bit of a float: numbers of another mesh would not be noticed.
 ///
 /// Not collective: any rank may read any frame.
 class FieldSeries {
  public:
-  /// `data` must outlive this. Throws InputError when there are no results, or none of the fields that are
-  /// needed.
+  /// `data` must outlive this. Throws InputError when there are no results, or they are of another mesh.
   FieldSeries(const RunDescription& run, const mesh::MeshData& data, std::filesystem::path folder);
   ~FieldSeries();
   FieldSeries(FieldSeries&&) noexcept;
@@ -37,7 +36,7 @@ class FieldSeries {
   /// Names of the stresses of the elements, such as "von Mises stress": all that any region has.
   const std::vector<std::string>& stresses() const;
 
-  /// Throws InputError when a file is missing, damaged, without a field, or of another mesh.
+  /// Throws InputError when a file is missing, damaged, or without a field.
   FieldFrame read(std::size_t frame);
 
  private:

@@ -10,6 +10,7 @@
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/wall_element.hpp"
 #include "tunica/fe/quadratic_tetrahedron.hpp"
+#include "tunica/field_io/array_name.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/wall/output.hpp"
 
@@ -19,6 +20,7 @@ namespace dimension = config::dimension;
 using coupling::at;
 using coupling::State;
 using coupling::vector_at;
+using field_io::array_name;
 using mesh::RegionKind;
 
 namespace {
@@ -183,13 +185,13 @@ void OutputFields::write_instant(distributed::ResultsWriter& writer, std::int64_
   const double stress_factor = per_si(units_.stress, dimension::pressure);
   std::vector<distributed::NodalArray> nodal;
   if (dynamic_)
-    nodal.push_back({.name = fmt::format("velocity [{}]", units_.velocity),
+    nodal.push_back({.name = array_name("velocity", units_.velocity),
                      .components = 3,
                      .values = state.velocity_pressure,
                      .stride = 4,
                      .factor = per_si(units_.velocity, dimension::velocity)});
   if (input.wall)
-    nodal.push_back({.name = fmt::format("displacement [{}]", units_.length),
+    nodal.push_back({.name = array_name("displacement", units_.length),
                      .components = 3,
                      .values = state.displacement,
                      .stride = 4,
@@ -198,7 +200,7 @@ void OutputFields::write_instant(distributed::ResultsWriter& writer, std::int64_
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const bool lumen = regions[r].kind == RegionKind::lumen;
     if (lumen || input.wall->element == wall::Element::mixed)
-      nodal.push_back({.name = fmt::format("pressure [{}]", units_.pressure),
+      nodal.push_back({.name = array_name(lumen ? "pressure" : "wall pressure", units_.pressure),
                        .components = 1,
                        .values = std::span(state.velocity_pressure).subspan(state.velocity_pressure.empty() ? 0 : 3),
                        .stride = 4,
@@ -206,28 +208,27 @@ void OutputFields::write_instant(distributed::ResultsWriter& writer, std::int64_
                        .region = static_cast<std::int32_t>(r)});
     if (!lumen) continue;
     compute_shear_stress(state);
-    nodal.push_back({.name = fmt::format("wall shear stress [{}]", units_.stress),
+    nodal.push_back({.name = array_name("wall shear stress", "Pa"),
                      .components = 3,
                      .values = shear_,
                      .stride = 3,
-                     .factor = stress_factor,
                      .region = static_cast<std::int32_t>(r)});
   }
   std::vector<distributed::CellArray> cells;
   if (input.wall) compute_wall_stress(wall);
   for (const auto& s : stress_) {
-    cells.push_back({.name = fmt::format("von Mises stress [{}]", units_.stress),
+    cells.push_back({.name = array_name("von Mises stress", units_.stress),
                      .region = s.region,
                      .components = 1,
                      .values = s.von_mises,
                      .factor = stress_factor});
-    cells.push_back({.name = fmt::format("first principal stress [{}]", units_.stress),
+    cells.push_back({.name = array_name("first principal stress", units_.stress),
                      .region = s.region,
                      .components = 1,
                      .values = s.principal,
                      .factor = stress_factor});
     for (std::size_t f = 0; f < s.fibre.size(); ++f)
-      cells.push_back({.name = fmt::format("stress along fibres {} [{}]", f + 1, units_.stress),
+      cells.push_back({.name = array_name(fmt::format("stress along fibres {}", f + 1), units_.stress),
                        .region = s.region,
                        .components = 1,
                        .values = s.fibre[f],

@@ -12,11 +12,11 @@
 namespace tunica::artifacts {
 
 /// Prepares a state for the ResultsWriter, in the units of the case:
-/// lumen: velocity, pressure, displacement (of the mesh, when it moves), wall shear stress (zero off the wall);
-/// wall: velocity (in dynamics), displacement, pressure (mixed element), and for each element the von Mises stress, the
-/// largest principal stress, and the Cauchy stress along the mean direction of each family of fibres that the law of
-/// its region has. Pressures and stresses of the wall are those of the instant that the case chooses, t_{n-1+alpha_f}
-/// or t_n, all else belongs to t_n.
+/// lumen: velocity, pressure, displacement (of the mesh, when it moves), wall shear stress [Pa] (zero off the wall);
+/// wall: velocity (in dynamics), displacement, wall pressure (mixed element), and for each element the von Mises
+/// stress, the largest principal stress, and the Cauchy stress along the mean direction of each family of fibres that
+/// the law of its region has. Pressures and stresses of the wall are those of the instant that the case chooses,
+/// t_{n-1+alpha_f} or t_n, all else belongs to t_n.
 class OutputFields {
  public:
   /// `problem` must outlive this.

@@ -11,11 +11,13 @@
 #include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/histories.hpp"
 #include "tunica/artifacts/libraries.hpp"
+#include "tunica/base/digits.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/json_text.hpp"
+#include "tunica/field_io/series_index.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/files/time_stamp.hpp"
 
 namespace tunica::artifacts {
@@ -35,11 +37,14 @@ ordered_json library_versions() {
   return json;
 }
 
-/// Does `name` look like <region>_<step>.pvtu or <region>_<step>_<rank>.vtu?
+/// Does `name` look like <region>_<step>.hdf or <region>_mesh.hdf, or like the <region>_<step>.pvtu and
+/// <region>_<step>_<rank>.vtu of earlier versions?
 bool is_series_file(std::string name, const std::string& region) {
   if (const std::string ending = files::temporary_ending; name.ends_with(ending))  // of a process that was killed
     name.resize(name.size() - ending.size());
-  if (!name.starts_with(region + "_") || !(name.ends_with(".vtu") || name.ends_with(".pvtu"))) return false;
+  if (name == field_io::mesh_file(region)) return true;
+  if (!name.starts_with(region + "_")) return false;
+  if (!name.ends_with(field_io::file_ending) && !name.ends_with(".vtu") && !name.ends_with(".pvtu")) return false;
   const auto end = name.cbegin() + static_cast<std::ptrdiff_t>(name.rfind('.'));
   return std::all_of(name.cbegin() + static_cast<std::ptrdiff_t>(region.size()) + 1, end,
                      [](unsigned char c) { return std::isdigit(c) || c == '_'; });
@@ -66,8 +71,12 @@ bool has_traces(const fs::path& folder) {
 /// Regions whose series are in a folder.
 std::vector<std::string> series_in(const fs::path& folder) {
   std::vector<std::string> regions;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".pvd") regions.push_back(entry.path().stem().string());
+  const std::string ending = field_io::series_ending;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(ending)) regions.push_back(name.substr(0, name.size() - ending.size()));
+    if (entry.path().extension() == ".pvd") regions.push_back(entry.path().stem().string());  // earlier versions
+  }
   return regions;
 }
 
@@ -108,7 +117,7 @@ void Manifest::write(const ManifestProgress& p) {
                   {"ranks", head_.ranks},
                   {"first_step", head_.first_step},
                   {"last_step", p.last_step},
-                  {"time [s]", p.time},
+                  {"time [s]", base::without_noise(p.time)},
                   {"newton_iterations", p.newton_iterations},
                   {"linear_iterations", p.linear_iterations},
                   {"rejected_steps", p.rejected_steps},
@@ -196,10 +205,12 @@ void remove_results(const fs::path& folder, const EarlierResults& results) {
   std::vector<fs::path> files = list_checkpoints(folder / "checkpoints");
   for (const auto& name : Histories::files()) files.push_back(folder / name);
   for (const auto& region : results.regions) {
+    files.push_back(field_io::series_file(folder, region));
     files.push_back(folder / (region + ".pvd"));
     for (const auto& entry : fs::directory_iterator(folder))
       if (is_series_file(entry.path().filename().string(), region)) files.push_back(entry.path());
   }
+  files.push_back(folder / field_io::overview_file);
   files.push_back(folder / "run.log");
   files.push_back(folder / file_name);  // last: as long as it is there, the folder is known to hold results
   for (const auto& file : files) fs::remove(file);

@@ -7,8 +7,8 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/case/plausible.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/csv_file.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::artifacts {

@@ -1,30 +1,19 @@
 #include "tunica/distributed/results_writer.hpp"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCommand.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
-#include <vtkFloatArray.h>
-#include <vtkInformation.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cassert>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
+#include "tunica/base/digits.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/distributed/element_nodes.hpp"
+#include "tunica/distributed/region_layout.hpp"
+#include "tunica/field_io/series_index.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::distributed {
@@ -33,105 +22,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What this rank writes of one region.
-struct Piece {
-  std::vector<std::int32_t> nodes;            ///< local nodes of the owned elements, ascending
-  vtkSmartPointer<vtkUnstructuredGrid> grid;  ///< points and cells; arrays only while writing
-};
-
-Piece make_piece(const DistributedMesh& mesh, const Region& region, double length_factor) {
-  Piece piece;
-  std::vector<std::int32_t> number(mesh.nodes(), -1);
-  for (std::int32_t e = 0; e < region.owned_elements; ++e)
-    for_each_node(region, static_cast<std::size_t>(e), [&](std::int32_t n) { number[n] = 0; });
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToFloat();
-  for (std::int32_t n = 0; n < mesh.nodes(); ++n) {
-    if (number[n] < 0) continue;
-    number[n] = static_cast<std::int32_t>(piece.nodes.size());
-    piece.nodes.push_back(n);
-    const auto x = length_factor * mesh.points[n];
-    points->InsertNextPoint(x[0], x[1], x[2]);
-  }
-  vtkNew<vtkCellArray> cells;
-  const int count = mesh.quadratic ? 10 : 4;
-  cells->AllocateExact(region.owned_elements, count * static_cast<vtkIdType>(region.owned_elements));
-  for (std::int32_t e = 0; e < region.owned_elements; ++e) {
-    cells->InsertNextCell(count);
-    for_each_node(region, static_cast<std::size_t>(e), [&](std::int32_t n) { cells->InsertCellPoint(number[n]); });
-  }
-  piece.grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  piece.grid->SetPoints(points);
-  piece.grid->SetCells(mesh.quadratic ? VTK_QUADRATIC_TETRA : VTK_TETRA, cells);
-  return piece;
-}
-
-vtkSmartPointer<vtkFloatArray> float_array(const std::string& name, int components, std::int64_t tuples) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
-
-void add_nodal(Piece& piece, const NodalArray& a) {
-  auto array = float_array(a.name, a.components, std::ssize(piece.nodes));
-  float* to = array->GetPointer(0);
-  for (const auto n : piece.nodes)
-    for (int c = 0; c < a.components; ++c)
-      *to++ = static_cast<float>(a.factor * a.values[static_cast<std::size_t>(n) * a.stride + c]);
-  piece.grid->GetPointData()->AddArray(array);
-}
-
-void add_cells(Piece& piece, const CellArray& a) {
-  const auto tuples = piece.grid->GetNumberOfCells();
-  auto array = float_array(a.name, a.components, tuples);
-  float* to = array->GetPointer(0);
-  for (vtkIdType i = 0; i < tuples * a.components; ++i) to[i] = static_cast<float>(a.factor * a.values[i]);
-  piece.grid->GetCellData()->AddArray(array);
-}
-
-/// Takes the place of VTK's own printing: the error is thrown instead.
-void discard_message(vtkObject*, unsigned long, void*, void*) {}
-
-void write_grid(vtkUnstructuredGrid* grid, const fs::path& path, bool compress) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  vtkNew<vtkCallbackCommand> silent;
-  silent->SetCallback(discard_message);
-  writer->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
-  // Into memory: VTK itself reports success for files that a full disk has cut off.
-  writer->WriteToOutputStringOn();
-  writer->SetInputData(grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetHeaderTypeToUInt64();
-  if (compress)
-    writer->SetCompressorTypeToZLib();
-  else
-    writer->SetCompressorTypeToNone();
-  if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
-    throw SolverError(fmt::format("cannot write {}: VTK error code {}", path.string(), writer->GetErrorCode()));
-  files::write_atomically(path, writer->GetOutputString());
-}
+/// As names of files are tried with.
+constexpr std::int64_t largest_step = 999999999;
 
 bool in_region(const NodalArray& a, std::size_t region) {
   return a.region < 0 || a.region == static_cast<std::int32_t>(region);
 }
 bool in_region(const CellArray& a, std::size_t region) { return a.region == static_cast<std::int32_t>(region); }
 
-template <class Arrays>
-std::vector<files::ArrayHeader> headers(const Arrays& arrays, std::size_t region) {
-  std::vector<files::ArrayHeader> result;
-  for (const auto& a : arrays)
-    if (in_region(a, region)) result.push_back({a.name, a.components});
+std::vector<field_io::ArrayHead> heads(const std::vector<field_io::Array>& arrays) {
+  std::vector<field_io::ArrayHead> result;
+  for (const auto& a : arrays) result.push_back({a.name, a.components});
   return result;
 }
 
-/// As names of files are tried with.
-constexpr std::int64_t largest_step = 999999999;
-
-std::string file_stem(const std::string& region, std::int64_t step) { return fmt::format("{}_{:06}", region, step); }
+/// Would the file be written as it is?
+bool holds(const fs::path& file, const std::string& bytes) {
+  std::ifstream in(file, std::ios::binary);
+  return in && std::string{std::istreambuf_iterator<char>(in), {}} == bytes;
+}
 
 }  // namespace
 
@@ -145,76 +54,87 @@ void check_region_names(const DistributedMesh& mesh) {
 struct ResultsWriter::Implementation {
   const DistributedMesh& mesh;
   ResultsOptions options;
-  int rank;
-  std::vector<Piece> pieces;                            ///< of each region
-  std::vector<std::vector<bool>> has_piece;             ///< rank 0: [region][rank]
-  std::vector<std::vector<files::SeriesEntry>> series;  ///< rank 0: of each region
+  std::vector<RegionLayout> layouts;
+  std::vector<field_io::RegionIndex> index;  ///< rank 0
 
-  Implementation(const DistributedMesh& m, const ResultsOptions& o)
-      : mesh(m), options(o), rank(parallel::rank(m.comm)), series(m.regions.size()) {
+  Implementation(const DistributedMesh& m, const ResultsOptions& o) : mesh(m), options(o) {
     parallel::on_root(mesh.comm, [&] { prepare_directory(); });
-    for (const auto& region : mesh.regions) {
-      pieces.push_back(make_piece(mesh, region, options.length_factor));
-      const int mine = region.owned_elements > 0;
-      std::vector<int> all(parallel::size(mesh.comm));
-      MPI_Gather(&mine, 1, MPI_INT, all.data(), 1, MPI_INT, 0, mesh.comm);
-      has_piece.emplace_back(all.begin(), all.end());
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+      layouts.emplace_back(mesh, mesh.regions[r]);
+      const auto shape = layouts.back().mesh(mesh, mesh.regions[r], options.length_factor);
+      parallel::on_root(mesh.comm, [&] { write_mesh(index[r], shape); });
     }
   }
-
-  fs::path pvd(std::size_t region) const { return options.directory / (mesh.regions[region].name + ".pvd"); }
 
   void prepare_directory() {
     check_region_names(mesh);
     files::make_folder(options.directory);
     std::vector<fs::path> names;
-    for (const auto& region : mesh.regions)
-      names.push_back(fmt::format("{}_{}.vtu", file_stem(region.name, largest_step), parallel::size(mesh.comm)));
+    for (const auto& region : mesh.regions) names.emplace_back(field_io::instant_file(region.name, largest_step));
     files::try_outputs(options.directory, names);
-    if (!options.continue_from) return;
-    for (std::size_t r = 0; r < series.size(); ++r) {
-      series[r] = files::read_pvd(pvd(r));
-      // The times of a .pvd are exact, the margin is for a restart time that went through another format.
-      const double last = *options.continue_from + 1e-12 * std::abs(*options.continue_from);
-      std::erase_if(series[r], [&](const files::SeriesEntry& e) { return e.time > last; });
+    for (const auto& region : mesh.regions) {
+      index.push_back({.name = region.name,
+                       .nodes = 0,
+                       .elements = 0,
+                       .nodes_of_cell = 4,
+                       .points = {},
+                       .cells = {},
+                       .series = {}});
+      if (!options.continue_from) continue;
+      auto& series = index.back().series;
+      series = field_io::read_series(series_path(region.name));
+      // The margin is for times of a series, which have 12 digits.
+      const double last = *options.continue_from + 1e-11 * std::abs(*options.continue_from);
+      std::erase_if(series, [&](const field_io::SeriesEntry& e) { return e.time > last; });
     }
   }
 
-  void write_pieces(std::int64_t step, std::span<const NodalArray> nodal, std::span<const CellArray> cells) {
-    for (std::size_t r = 0; r < pieces.size(); ++r) {
-      auto& piece = pieces[r];
-      if (piece.nodes.empty()) continue;
-      for (const auto& a : nodal)
-        if (in_region(a, r)) add_nodal(piece, a);
-      for (const auto& a : cells)
-        if (in_region(a, r)) add_cells(piece, a);
-      const auto path = options.directory / fmt::format("{}_{}.vtu", file_stem(mesh.regions[r].name, step), rank);
-      write_grid(piece.grid, path, options.compress);
-      // VTK has noted ranges there and would write them next time: files of a continued run would not be the same.
-      piece.grid->GetPoints()->GetData()->GetInformation()->Clear();
-      piece.grid->GetPointData()->Initialize();
-      piece.grid->GetCellData()->Initialize();
-    }
+  fs::path series_path(const std::string& region) const { return field_io::series_file(options.directory, region); }
+
+  void write_mesh(field_io::RegionIndex& entry, const field_io::RegionMesh& shape) const {
+    entry.nodes = shape.nodes();
+    entry.elements = shape.elements();
+    entry.nodes_of_cell = shape.nodes_of_cell;
+    const fs::path file = options.directory / field_io::mesh_file(entry.name);
+    const std::string bytes = field_io::mesh_bytes(shape);
+    if (holds(file, bytes)) return;
+    if (!entry.series.empty() && fs::exists(file))
+      throw InputError(file.string(), "is not the mesh that the run goes on with, and earlier instants refer to it",
+                       "put back the mesh and `output.units.length`, or begin anew with --overwrite");
+    files::write_atomically(file, bytes);
   }
 
-  void write_heads(std::int64_t step, double time, std::span<const NodalArray> nodal,
-                   std::span<const CellArray> cells) {
-    for (std::size_t r = 0; r < pieces.size(); ++r) {
-      const auto stem = file_stem(mesh.regions[r].name, step);
-      std::vector<std::string> names;
-      for (std::size_t k = 0; k < has_piece[r].size(); ++k)
-        if (has_piece[r][k]) names.push_back(fmt::format("{}_{}.vtu", stem, k));
-      files::write_atomically(options.directory / (stem + ".pvtu"),
-                              files::pvtu_text(headers(nodal, r), headers(cells, r), names));
+  field_io::Instant gather(std::size_t r, double time, std::span<const NodalArray> nodal,
+                           std::span<const CellArray> cells) const {
+    field_io::Instant instant;
+    instant.time = time;
+    for (const auto& a : nodal)
+      if (in_region(a, r))
+        instant.points.push_back({a.name, a.components, layouts[r].nodal(a.values, a.stride, a.components, a.factor)});
+    for (const auto& a : cells)
+      if (in_region(a, r))
+        instant.cells.push_back({a.name, a.components, layouts[r].cellwise(a.values, a.components, a.factor)});
+    return instant;
+  }
+
+  void write_instant(std::size_t r, std::int64_t step, const field_io::Instant& instant) {
+    auto& entry = index[r];
+    entry.points = heads(instant.points);
+    entry.cells = heads(instant.cells);
+    files::write_atomically(options.directory / field_io::instant_file(entry.name, step),
+                            field_io::instant_bytes(instant, field_io::mesh_file(entry.name)));
+  }
+
+  // Only when all regions are written, so that their series stay equally long unless the very last renaming fails.
+  void write_lists(std::int64_t step, double time) {
+    for (auto& entry : index) {
+      auto longer = entry.series;
+      std::erase_if(longer, [&](const field_io::SeriesEntry& e) { return e.time >= time; });
+      longer.push_back({time, field_io::instant_file(entry.name, step)});
+      files::write_atomically(series_path(entry.name), field_io::series_text(longer));
+      entry.series = std::move(longer);
     }
-    // Only now, so that the series of the regions stay equally long unless the very last renaming fails.
-    for (std::size_t r = 0; r < pieces.size(); ++r) {
-      auto longer = series[r];
-      std::erase_if(longer, [&](const files::SeriesEntry& e) { return e.time >= time; });
-      longer.push_back({time, file_stem(mesh.regions[r].name, step) + ".pvtu"});
-      files::write_atomically(pvd(r), files::pvd_text(longer));
-      series[r] = std::move(longer);
-    }
+    files::write_atomically(options.directory / field_io::overview_file, field_io::overview_text(index));
   }
 };
 
@@ -228,20 +148,27 @@ void ResultsWriter::write(std::int64_t step, double time, std::span<const NodalA
                           std::span<const CellArray> cells) {
   auto& self = *implementation_;
   for ([[maybe_unused]] const auto& a : nodal)
-    assert(a.name.find_first_of("&<>\"") == std::string::npos && a.stride >= a.components &&
+    assert(a.name.find_first_of("/&<>\"") == std::string::npos && a.stride >= a.components &&
            (self.mesh.nodes() == 0 ||
-            a.values.size() + a.stride - a.components >= static_cast<std::size_t>(self.mesh.nodes()) * a.stride));
+            a.values.size() + static_cast<std::size_t>(a.stride - a.components) >=
+                static_cast<std::size_t>(self.mesh.nodes()) * static_cast<std::size_t>(a.stride)));
   for ([[maybe_unused]] const auto& a : cells)
     assert(a.values.size() == static_cast<std::size_t>(self.mesh.regions[a.region].owned_elements) * a.components);
-  const auto at_time = [&](const auto& action) {
-    try {
-      action();
-    } catch (const SolverError& error) {
-      throw SolverError(fmt::format("results of step {} (t = {:g} s): {}", step, time, error.what()));
-    }
+  const double clean = base::without_noise(time);
+  const auto on_root = [&](const auto& action) {
+    parallel::on_root(self.mesh.comm, [&] {
+      try {
+        action();
+      } catch (const SolverError& error) {
+        throw SolverError(fmt::format("results of step {} (t = {:g} s): {}", step, time, error.what()));
+      }
+    });
   };
-  parallel::agree(self.mesh.comm, [&] { at_time([&] { self.write_pieces(step, nodal, cells); }); });
-  parallel::on_root(self.mesh.comm, [&] { at_time([&] { self.write_heads(step, time, nodal, cells); }); });
+  for (std::size_t r = 0; r < self.layouts.size(); ++r) {
+    const auto instant = self.gather(r, clean, nodal, cells);
+    on_root([&] { self.write_instant(r, step, instant); });
+  }
+  on_root([&] { self.write_lists(step, clean); });
 }
 
 }  // namespace tunica::distributed

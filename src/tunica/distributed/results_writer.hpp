@@ -1,4 +1,4 @@
-// Time series of results for ParaView.
+// Time series of results.
 #pragma once
 
 #include <cstdint>
@@ -36,21 +36,21 @@ struct CellArray {
 struct ResultsOptions {
   std::filesystem::path directory;        ///< created when missing
   double length_factor = 1;               ///< from m to the length unit of the files, for example 1000 for mm
-  bool compress = false;                  ///< zlib: about half the size, and much slower
   std::optional<double> continue_from{};  ///< time of the restart [s]: keep the series up to it. Otherwise begin anew
 };
 
 /// Throws InputError where the name of a region cannot be part of a file name.
 void check_region_names(const DistributedMesh& mesh);
 
-/// Writes for each region `<region>.pvd`, the series, and for each step `<region>_<step>.pvtu` with one
-/// `<region>_<step>_<rank>.vtu` per rank that has elements of it. Numbers are Float32; coordinates are those of the
-/// reference configuration. The .pvd and .pvtu appear by renaming and only after what they refer to is complete, so
-/// the series can be opened at any time, also after an interruption.
+/// Writes for each region `<region>_mesh.hdf` once, and for each step `<region>_<step>.hdf` with the fields
+/// (field_io/field_file.hpp); `<region>.hdf.series` lists the instants, `results.xdmf` all of all regions. A region is
+/// one piece in the order of the case's mesh, whatever number of ranks writes it, so that partition faces do not show.
+/// Numbers are Float32; coordinates are those of the reference configuration. Each file appears by renaming, the lists
+/// only after what they name, so the series can be opened at any time, also after an interruption.
 class ResultsWriter {
  public:
   /// `mesh` must outlive the writer. Throws InputError on all ranks when the directory cannot be written, a region's
-  /// name cannot be a file name, or a series to be continued cannot be read. Collective.
+  /// name cannot be a file name, or a series to be continued cannot be read or is of another mesh. Collective.
   ResultsWriter(const DistributedMesh& mesh, const ResultsOptions& options);
   ~ResultsWriter();
   ResultsWriter(ResultsWriter&&) noexcept;

@@ -22,7 +22,7 @@ struct Focus {
 };
 
 struct PictureOptions {
-  std::vector<std::string> inputs;  ///< .vtu, .pvtu, .vtp, .pvtp, or .pvd time series; all are drawn together
+  std::vector<std::string> inputs;  ///< .hdf, .vtu, .pvtu, .vtp, .pvtp, .hdf.series, .pvd; all are drawn together
   std::string output;               ///< .png; of a movie also .webm or .gif, and .png means one file for each step
   bool movie = false;               ///< all steps of the series in place of one
   double frame_rate = 10;           ///< of a movie, steps in a second

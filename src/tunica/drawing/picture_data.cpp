@@ -10,12 +10,26 @@
 #include <map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/field_io/series_index.hpp"
 
 namespace tunica::drawing {
+
+namespace {
+
+std::vector<SeriesStep> series_of_results(const std::filesystem::path& path) {
+  std::vector<SeriesStep> steps;
+  for (const auto& entry : field_io::read_series(path))
+    steps.push_back({entry.time, {(path.parent_path() / entry.file).string()}});
+  if (steps.empty()) throw InputError(path.string(), "lists no instant", "let the run write at least one output step");
+  return steps;
+}
+
+}  // namespace
 
 std::vector<SeriesStep> read_series(const std::string& file) {
   const std::filesystem::path path(file);
   if (!std::filesystem::exists(path)) throw InputError(file, "does not exist", "check the path");
+  if (path.extension() == ".series") return series_of_results(path);
   if (path.extension() != ".pvd") return {SeriesStep{std::nullopt, {file}}};
 
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));

@@ -13,7 +13,7 @@ struct SeriesStep {
   std::vector<std::string> files;
 };
 
-/// Steps of a .pvd time series, ordered by time, with paths resolved against the folder of the .pvd; a file of any
+/// Steps of a .hdf.series or .pvd time series, ordered by time, with paths resolved against its folder; a file of any
 /// other kind is one step. Throws InputError if the series cannot be read or is empty.
 std::vector<SeriesStep> read_series(const std::string& file);
 

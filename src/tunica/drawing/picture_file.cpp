@@ -4,19 +4,25 @@
 #include <vtkAppendFilter.h>
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
 #include "tunica/base/error.hpp"
+#include "tunica/field_io/field_file.hpp"
 #include "tunica/mesh_io/vtk_check.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 #include "tunica/mesh_io/vtk_messages.hpp"
@@ -108,15 +114,60 @@ vtkPointSet* read_one(const fs::path& file, const char* kind) {
   return output;
 }
 
+/// Array `values` of so many tuples with a name.
+vtkNew<vtkFloatArray> float_array(const field_io::ArrayHead& head, const std::vector<float>& values) {
+  vtkNew<vtkFloatArray> array;
+  array->SetName(head.name.c_str());
+  array->SetNumberOfComponents(head.components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / head.components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+vtkNew<vtkUnstructuredGrid> grid_of(const field_io::RegionMesh& mesh) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  points->SetData(float_array({"", 3}, mesh.points));
+  vtkNew<vtkCellArray> cells;
+  const auto width = static_cast<std::size_t>(mesh.nodes_of_cell);
+  for (std::size_t e = 0; e < mesh.elements(); ++e) {
+    cells->InsertNextCell(mesh.nodes_of_cell);
+    for (std::size_t a = 0; a < width; ++a) cells->InsertCellPoint(mesh.cells[e * width + a]);
+  }
+  grid->SetPoints(points);
+  grid->SetCells(width == 10 ? VTK_QUADRATIC_TETRA : VTK_TETRA, cells);
+  return grid;
+}
+
+vtkPointSet* read_results(const fs::path& path) {
+  const field_io::FieldFile file(path);
+  const auto grid = grid_of(file.read_mesh());
+  const auto add = [&](vtkDataSetAttributes* to, const field_io::ArrayHead& head, const std::vector<float>& values,
+                       vtkIdType tuples) {
+    if (static_cast<vtkIdType>(values.size()) != tuples * head.components)
+      refuse(path, fmt::format("`{}` is not of the size of the mesh", head.name));
+    to->AddArray(float_array(head, values));
+  };
+  for (const auto& head : file.point_arrays())
+    add(grid->GetPointData(), head, file.read_points(head.name), grid->GetNumberOfPoints());
+  for (const auto& head : file.cell_arrays())
+    add(grid->GetCellData(), head, file.read_cells(head.name), grid->GetNumberOfCells());
+  grid->Register(nullptr);
+  return grid;
+}
+
 }  // namespace
 
 vtkPointSet* read_points(const std::string& file) {
   const std::string kind = fs::path(file).extension().string();
+  if (kind == field_io::file_ending) return read_results(file);
   if (kind == ".vtu") return read_one<vtkXMLUnstructuredGridReader>(file, "UnstructuredGrid");
   if (kind == ".vtp") return read_one<vtkXMLPolyDataReader>(file, "PolyData");
   if (kind == ".pvtu") return read_pieces<vtkXMLUnstructuredGridReader, vtkAppendFilter>(file, "UnstructuredGrid");
   if (kind == ".pvtp") return read_pieces<vtkXMLPolyDataReader, vtkAppendPolyData>(file, "PolyData");
-  throw InputError(file, "is no VTK XML mesh", "give .vtu, .pvtu, .vtp, .pvtp or .pvd files");
+  throw InputError(file, "is neither a file of results nor a VTK XML mesh",
+                   "give .hdf.series, .hdf, .vtu, .pvtu, .vtp, .pvtp or .pvd files");
 }
 
 }  // namespace tunica::drawing

@@ -128,6 +128,21 @@ Names xml_names(std::istream& stream) {
   return names;
 }
 
+/// The values of the keys "name" of a list of instants (JSON).
+Names series_names(std::istream& stream) {
+  std::ostringstream all;
+  all << stream.rdbuf();
+  const std::string text = all.str(), key = "\"name\"";
+  Names names;
+  for (auto at = text.find(key); at != std::string::npos; at = text.find(key, at)) {
+    const auto begin = text.find('"', at + key.size()), end = text.find('"', begin + 1);
+    if (begin == std::string::npos || end == std::string::npos) break;
+    names.push_back(text.substr(begin + 1, end - begin - 1));
+    at = end;
+  }
+  return names;
+}
+
 }  // namespace
 
 Names named_files(const std::filesystem::path& file) {
@@ -139,6 +154,7 @@ Names named_files(const std::filesystem::path& file) {
   if (!stream) return {};
   if (is({".nhdr", ".nrrd"})) return nrrd_names(stream);
   if (is({".mhd", ".mha"})) return metaimage_names(stream);
+  if (is({".series"})) return series_names(stream);
   if (is({".pvd", ".pvtu", ".pvtp", ".vtm"})) return xml_names(stream);
   return {};
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "tunica/base/error.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/imaging/header_file.hpp"
 #include "tunica/imaging/image_formats.hpp"
 #include "tunica/imaging/voxel_data.hpp"

@@ -41,9 +41,15 @@ bool is_terminal(std::FILE* stream) {
   return !unreadable && (target.starts_with("/dev/pts/") || target.starts_with("/dev/tty"));
 }
 
-Log::Log(MPI_Comm comm, const Targets& targets) {
+bool is_coloured(std::FILE* stream) {
+  const char *none = std::getenv("NO_COLOR"), *term = std::getenv("TERM");
+  return is_terminal(stream) && (none == nullptr || *none == '\0') && (term == nullptr || std::string(term) != "dumb");
+}
+
+Log::Log(MPI_Comm comm, const Targets& targets) : verbose_(targets.verbose) {
   on_root(comm, [&] {
     screen_ = targets.screen;
+    coloured_ = screen_ != nullptr && is_coloured(screen_);
     on_terminal_ = screen_ != nullptr && is_terminal(screen_);
     if (targets.file.empty()) return;
     name_ = targets.file;
@@ -61,13 +67,28 @@ Log::~Log() {
 }
 
 void Log::info(std::string_view text) { write("info", text); }
+void Log::detail(std::string_view text) {
+  if (verbose_) write_to_screen("info", text);
+  write_to_file("info", text);
+}
+void Log::heading(std::string_view text) {
+  write_to_screen("heading", text);
+  write_to_file("info", text);
+}
 void Log::warning(std::string_view text) { write("warning", text); }
 void Log::error(std::string_view text) { write("error", text); }
 
+std::string Log::coloured(std::string_view kind, std::string_view text) const {
+  const bool named = kind != "info" && kind != "heading";
+  const std::string plain = named ? fmt::format("{}: {}", kind, text) : std::string(text);
+  if (!coloured_ || kind == "info") return plain;
+  if (kind == "heading") return fmt::format("\033[1m{}\033[0m", plain);
+  return fmt::format("\033[{}m{}:\033[0m {}", kind == "error" ? "1;31" : "1;33", kind, text);  // red, yellow
+}
+
 void Log::write_to_screen(std::string_view kind, std::string_view text) {
   if (screen_ == nullptr) return;
-  const std::string prefix = kind == "info" ? "" : fmt::format("{}: ", kind);
-  const std::string line = fmt::format("{}{}{}\n{}", status_.empty() ? "" : erase_line, prefix, text, status_);
+  const std::string line = fmt::format("{}{}\n{}", status_.empty() ? "" : erase_line, coloured(kind, text), status_);
   if (const int error = put(screen_, line); error != 0) give_up_screen(error);
 }
 

@@ -6,9 +6,9 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/case/face_patterns.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/patience.hpp"
@@ -107,8 +107,12 @@ class ChainRun {
     parallel::broadcast(comm_, file);
     const double start = MPI_Wtime();
     try {
-      const int signal = stage.run(
-          {.comm = comm_, .file = file, .resume = decision.resume, .program = request_.program, .screen = screen_});
+      const int signal = stage.run({.comm = comm_,
+                                    .file = file,
+                                    .resume = decision.resume,
+                                    .program = request_.program,
+                                    .screen = screen_,
+                                    .verbose = request_.verbose});
       parallel::on_root(comm_, [&] {
         if (signal == 0) record_.outputs = outputs_of(folder_, stage.outputs);
         end(signal == 0 ? "done" : "stopped", "", MPI_Wtime() - start);

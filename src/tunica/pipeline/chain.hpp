@@ -24,6 +24,7 @@ struct ChainRequest {
   bool overwrite = false;                            ///< all stages are done anew
   std::optional<std::string> only{};                 ///< this stage alone, on what those before it have left
   bool dry_run = false;                              ///< only say what would be done, and why
+  bool verbose = false;                              ///< as RunRequest::verbose
   artifacts::ProgramVersion program{};
 };
 

@@ -19,7 +19,7 @@ Outputs outputs_of(const std::filesystem::path& folder, const std::vector<std::s
 /// Those that are gone, have another size, or are checkpoints that are not whole.
 std::vector<std::string> lost_outputs(const std::filesystem::path& folder, const Outputs& recorded);
 
-/// "lumen_000004.pvtu is missing or damaged", "lumen.pvd and 3 more are missing or damaged".
+/// "lumen_000004.hdf is missing or damaged", "lumen.hdf.series and 3 more are missing or damaged".
 std::string text_of_lost(const std::vector<std::string>& lost);
 
 }  // namespace tunica::pipeline

@@ -33,6 +33,7 @@ struct StageCall {
   bool resume = false;         ///< go on with what is in the folder, as far as the stage can
   artifacts::ProgramVersion program{};
   std::FILE* screen = stdout;
+  bool verbose = false;  ///< as RunRequest::verbose
 
   std::filesystem::path folder() const { return file.parent_path(); }
 };

@@ -250,6 +250,7 @@ int run_case_stage(const StageCall& call) {
   stages::RunRequest request;
   request.case_file = call.file;
   request.program = call.program;
+  request.verbose = call.verbose;
   const auto say = say_to(call);
   request.restart = on_all(call.comm, [&] {
     if (!call.resume) return false;
@@ -429,7 +430,7 @@ const std::vector<Stage>& stages() {
        .by_hand = "tunica run case.yaml --restart",
        .output = "",
        .result = "manifest.json",
-       .outputs = {"manifest.json", "*.csv", "*.pvd", "*.pvtu", "*.vtu", "checkpoints/*"},
+       .outputs = {"manifest.json", "*.csv", "*.hdf", "*.series", "*.xdmf", "checkpoints/*"},
        .wanted = [](const case_file::Case&) { return true; },
        .document = run_document,
        .description = description_of<case_file::Case>(),

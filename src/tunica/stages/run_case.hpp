@@ -22,6 +22,7 @@ struct RunRequest {
   bool restart = false;                               ///< go on from the last checkpoint in the folder of results
   std::optional<std::filesystem::path> restart_file;  ///< go on from this checkpoint
   bool overwrite = false;                             ///< results in the folder may be removed
+  bool verbose = false;                               ///< a line for each step on the screen; run.log has them anyway
   std::optional<std::int64_t> until;                  ///< stop when so many steps are completed
   std::string resume;  ///< command that goes on with a run that a signal has stopped; empty: `tunica run ... --restart`
   artifacts::ProgramVersion program;

@@ -37,14 +37,18 @@ TEST(Case, PulseInACompliantTube) {
   EXPECT_NEAR(outlets.last("lumen_outlet pressure [mmHg]") * 133.322387415,
               1e8 * outlets.last("lumen_outlet flow [ml/s]") * 1e-6, 1e-4);
 
-  for (const char* file : {"lumen.pvd", "wall.pvd", "manifest.json", "run.log", "lumen_000005.pvtu", "wall_000010.pvtu",
-                           "checkpoints/step_00000005.checkpoint", "checkpoints/step_00000010.checkpoint"})
+  for (const char* file : {"lumen.hdf.series", "wall.hdf.series", "results.xdmf", "lumen_mesh.hdf", "manifest.json",
+                           "run.log", "lumen_000005.hdf", "wall_000010.hdf", "checkpoints/step_00000005.checkpoint",
+                           "checkpoints/step_00000010.checkpoint"})
     EXPECT_TRUE(fs::exists(results / file)) << file;
-  EXPECT_FALSE(fs::exists(results / "lumen_000003.pvtu"));
+  EXPECT_FALSE(fs::exists(results / "lumen_000003.hdf"));
   if (parallel::rank(MPI_COMM_WORLD) == 0) {
-    EXPECT_NE(printed.find("step 10/10  t 1 ms"), std::string::npos) << printed;
-    EXPECT_NE(slurp(results / "wall_000010.pvtu").find("von Mises stress [kPa]"), std::string::npos);
-    EXPECT_NE(slurp(results / "lumen_000010.pvtu").find("wall shear stress [kPa]"), std::string::npos);
+    EXPECT_NE(printed.find("step 10/10  t 1 ms"), std::string::npos) << printed;  // of the progress
+    EXPECT_EQ(printed.find("newton"), std::string::npos) << printed;
+    EXPECT_NE(slurp(results / "run.log").find("step 10/10  t 1 ms  newton"), std::string::npos);
+    EXPECT_NE(printed.find("whole run: least, mean, largest"), std::string::npos) << printed;
+    EXPECT_NE(slurp(results / "wall_000010.hdf").find("von Mises stress [kPa]"), std::string::npos);
+    EXPECT_NE(slurp(results / "lumen_000010.hdf").find("wall shear stress [Pa]"), std::string::npos);
     EXPECT_NE(slurp(results / "manifest.json").find("\"status\": \"completed\""), std::string::npos);
   }
 }
@@ -67,7 +71,7 @@ TEST(Case, RigidTubeWithWindkessel) {
   }
   EXPECT_RELATIVE(outlets.last("lumen_outlet stored pressure [Pa]"), stored);
   EXPECT_NEAR(outlets.last("lumen_outlet pressure [Pa]"), stored + 1e7 * 20e-6, tolerance * stored);
-  EXPECT_FALSE(fs::exists(folder.path() / "results/wall.pvd"));
+  EXPECT_FALSE(fs::exists(folder.path() / "results/wall.hdf.series"));
 }
 
 TEST(Case, StaticWallUnderPressure) {
@@ -132,7 +136,7 @@ TEST(Case, AFailedRunKeepsWhatItHasAndSaysWhy) {
     EXPECT_NE(message.find(part), std::string::npos) << part << "\nnot in\n" << message;
   EXPECT_NE(slurp(folder.path() / "results/manifest.json").find("\"status\": \"failed\""), std::string::npos);
   EXPECT_TRUE(fs::exists(folder.path() / "results/checkpoints/step_00000000.checkpoint"));
-  EXPECT_TRUE(fs::exists(folder.path() / "results/lumen_000000.pvtu"));
+  EXPECT_TRUE(fs::exists(folder.path() / "results/lumen_000000.hdf"));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ stages::RunRequest into(const fs::path& directory) {
 void expect_same_results(const fs::path& a, const fs::path& b, int step) {
   EXPECT_FALSE(checkpoint_of(a, step).empty());
   EXPECT_TRUE(checkpoint_of(a, step) == checkpoint_of(b, step)) << "the states differ";
-  for (const char* file : {"faces.csv", "balance.csv", "outlets.csv", "lumen.pvd"})
+  for (const char* file : {"faces.csv", "balance.csv", "outlets.csv", "lumen.hdf.series"})
     EXPECT_EQ(slurp(a / file), slurp(b / file)) << file;
 }
 
@@ -143,8 +143,8 @@ TEST(ResultsFolder, IsNotOverwrittenSilently) {
   request.overwrite = true;
   request.until = 2;
   run(other, request);
-  EXPECT_TRUE(fs::exists(results / "wall.pvd"));
-  EXPECT_FALSE(fs::exists(results / "lumen_000005.pvtu"));
+  EXPECT_TRUE(fs::exists(results / "wall.hdf.series"));
+  EXPECT_FALSE(fs::exists(results / "lumen_000005.hdf"));
   EXPECT_TRUE(fs::exists(results / "notes.txt"));  // not a file of a run
 }
 

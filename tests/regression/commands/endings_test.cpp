@@ -51,8 +51,9 @@ class Endings : public Program {
   }
   void expect_same_as_whole(int steps, const std::string& results = "results") const {
     ASSERT_EQ(tunica("run case.yaml --output whole --overwrite"), 0) << printed();
-    for (const std::string& file : {std::string("faces.csv"), std::string("balance.csv"),
-                                    fmt::format("checkpoints/step_{:08}.checkpoint", steps), std::string("lumen.pvd")})
+    for (const std::string& file :
+         {std::string("faces.csv"), std::string("balance.csv"), fmt::format("checkpoints/step_{:08}.checkpoint", steps),
+          std::string("lumen.hdf.series")})
       EXPECT_TRUE(read(results + "/" + file) == read("whole/" + file)) << file;
   }
   static constexpr const char* last = "results/checkpoints/step_00000006.checkpoint";
@@ -210,9 +211,9 @@ TEST_F(Endings, AManifestThatIsGoneOrCutOffHidesNoResults) {
 TEST_F(Endings, LostFieldsAreNoticed) {
   write_case(8);
   ASSERT_EQ(tunica("run case.yaml --until 6"), 0) << printed();
-  fs::remove(folder_ / "results/lumen_000002_0.vtu");
+  fs::remove(folder_ / "results/lumen_000002.hdf");
   EXPECT_EQ(tunica("run case.yaml --restart"), 0) << printed();
-  expect_printed("warning: lumen_000002_0.vtu of the series results/lumen.pvd is missing");
+  expect_printed("warning: lumen_000002.hdf of the series results/lumen.hdf.series is missing");
 }
 
 class ChainEndings : public Endings {
@@ -250,14 +251,14 @@ TEST_F(ChainEndings, AStageThatHasLostItsFilesIsNotFresh) {
     return std::regex_search(printed(), std::regex(fmt::format("{} +fresh", stage)));
   };
   EXPECT_TRUE(fresh("prestress") && fresh("run") && fresh("report")) << printed();
-  for (const std::string file : {"run/lumen_000004.pvtu", "run/wall.pvd", "run/faces.csv",
+  for (const std::string file : {"run/lumen_000004.hdf", "run/wall.hdf.series", "run/faces.csv",
                                  "run/checkpoints/step_00000006.checkpoint", "run/manifest.json"}) {
     fs::remove(folder_ / "out" / file);
     EXPECT_FALSE(fresh("run")) << file;
     EXPECT_EQ(tunica("run case.yaml"), 0) << printed();
     EXPECT_TRUE(fresh("run"));
     EXPECT_TRUE(read("out/run/faces.csv") == kept("run/faces.csv")) << file;
-    EXPECT_TRUE(read("out/run/wall.pvd") == kept("run/wall.pvd")) << file;
+    EXPECT_TRUE(read("out/run/wall.hdf.series") == kept("run/wall.hdf.series")) << file;
   }
   for (const std::string file : {"prestress/wall.vtu", "prestress/flow.checkpoint", "prestress/start.checkpoint"}) {
     cut("out/" + file, 0.6);

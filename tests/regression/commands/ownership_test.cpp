@@ -57,8 +57,10 @@ class Ownership : public Program {
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / name)) {
       const auto ending = entry.path().extension();
       EXPECT_NE(ending, ".part") << entry.path();
-      if (ending != ".vtu" && ending != ".vtp" && ending != ".pvtu" && ending != ".pvd") continue;
       const std::string text = slurp(entry.path());
+      if (ending == ".xdmf") EXPECT_TRUE(text.ends_with("</Xdmf>\n")) << entry.path();
+      if (ending == ".series") EXPECT_TRUE(text.ends_with("}\n")) << entry.path();
+      if (ending != ".vtu" && ending != ".vtp") continue;
       EXPECT_NE(text.rfind("</VTKFile>"), std::string::npos) << entry.path();
     }
   }

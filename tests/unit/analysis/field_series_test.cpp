@@ -10,7 +10,8 @@
 #include "small_vessels.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/distributed/results_writer.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/field_io/series_index.hpp"
+#include "tunica/files/atomic_file.hpp"
 
 namespace tunica::analysis {
 namespace {
@@ -50,7 +51,7 @@ class FieldSeriesTest : public ::testing::Test {
       std::vector<double> p;
       for (const auto& x : mesh_.points) p.push_back(pressure(x) + t);
       const distributed::NodalArray nodal[] = {
-          {.name = "velocity [cm/s]", .components = 3, .values = v, .stride = 3, .factor = 100, .region = 0},
+          {.name = "velocity [cm s^-1]", .components = 3, .values = v, .stride = 3, .factor = 100, .region = 0},
           {.name = "pressure [mmHg]", .values = p, .factor = 1 / mmHg, .region = 0},
           {.name = "wall shear stress [Pa]", .components = 3, .values = tau, .stride = 3, .region = 0},
           {.name = "displacement [" + unit + "]", .components = 3, .values = d, .stride = 3, .factor = length}};
@@ -151,19 +152,19 @@ TEST_F(FieldSeriesTest, LengthsMayBeInAnyUnit) {
 TEST_F(FieldSeriesTest, OnlyTimesThatAllRegionsHaveCount) {
   write({0, 0.1, 0.2});
   spoil([&] {
-    const auto path = folder_.path() / "false_lumen_wall.pvd";
-    auto entries = files::read_pvd(path);
+    const auto path = field_io::series_file(folder_.path(), "false_lumen_wall");
+    auto entries = field_io::read_series(path);
     entries.erase(entries.begin() + 1);
-    files::write_atomically(path, files::pvd_text(entries));
+    files::write_atomically(path, field_io::series_text(entries));
   });
   auto found = series(flow_in_two_lumens());
   EXPECT_EQ(found.times(), (std::vector<double>{0, 0.2}));
   EXPECT_EQ(found.read(1).time, 0.2);
   EXPECT_NEAR(found.read(1).stress[0].back(), 1000 * (static_cast<double>(data_.tetrahedra.size()) - 1 + 0.2), 0.1);
   spoil([&] {
-    const auto path = folder_.path() / "lumen.pvd";
-    auto entries = files::read_pvd(path);
-    files::write_atomically(path, files::pvd_text({entries[1]}));
+    const auto path = field_io::series_file(folder_.path(), "lumen");
+    auto entries = field_io::read_series(path);
+    files::write_atomically(path, field_io::series_text({entries[1]}));
   });
   EXPECT_NE(refusal(flow_in_two_lumens()).find("no time that all regions have in common"), std::string::npos);
 }
@@ -193,79 +194,50 @@ TEST_F(FieldSeriesTest, ResultsOfAnotherMeshAreRefused) {
             std::string::npos);
 }
 
-/// Puts a number of eight bytes into the values of an array of a file that is not compressed.
-void put_number(const std::filesystem::path& path, const std::string& array, std::size_t at, std::int64_t number) {
-  auto text = test::slurp(path);
-  const auto tag = text.find("Name=\"" + array + "\"");
-  const auto offset = text.find("offset=\"", tag) + 8;
-  const auto data = text.find('_', text.find("<AppendedData")) + 1 + std::stoul(text.substr(offset));
-  std::memcpy(&text[data + 8 + 8 * at], &number, sizeof number);
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-TEST_F(FieldSeriesTest, DamagedPiecesAreRefused) {
-  const auto piece = folder_.path() / "lumen_000000_0.vtu";
-  for (const auto& [array, at, number] : {std::tuple{"connectivity", 17, std::int64_t{1} << 48},
-                                          {"connectivity", 3, std::int64_t{-1}},
-                                          {"connectivity", 0, std::int64_t{100000}},
-                                          {"offsets", 2, std::int64_t{1} << 50},
-                                          {"offsets", 4, std::int64_t{-8}}}) {
+TEST_F(FieldSeriesTest, DamagedFilesAreRefused) {
+  for (const char* name : {"lumen_000000.hdf", "lumen_mesh.hdf", "lumen.hdf.series"}) {
     write({0});
-    spoil(
-        [&, name = array, at = at, number = number] { put_number(piece, name, static_cast<std::size_t>(at), number); });
+    spoil([&] {
+      const auto path = folder_.path() / name;
+      const auto text = test::slurp(path);
+      std::ofstream(path, std::ios::binary) << text.substr(0, text.size() / 2);
+    });
     const auto text = refusal(flow_in_two_lumens());
-    EXPECT_NE(text.find("lumen_000000_0.vtu"), std::string::npos) << array << ": " << text;
-    EXPECT_NE(text.find("run the case again"), std::string::npos) << text;
+    EXPECT_NE(text.find(name[5] == 'm' ? "lumen_" : name), std::string::npos) << text;
   }
 }
 
-TEST_F(FieldSeriesTest, ImpossibleNumbersOfHeadsAreRefused) {
-  const auto damaged = [&](const char* file, const std::string& was, const std::string& is) {
-    write({0});
+/// The fields of one region at the only instant, in place of what was written.
+void replace_fields(const std::filesystem::path& folder, const std::vector<field_io::Array>& points) {
+  files::write_atomically(folder / "lumen_000000.hdf", field_io::instant_bytes({0, points, {}}, "lumen_mesh.hdf"));
+}
+
+TEST_F(FieldSeriesTest, FieldsOfOtherSizesAndUnitsAreRefused) {
+  write({0});
+  const auto refused = [&](const std::string& velocity, int components, std::size_t tuples) {
     spoil([&] {
-      const auto path = folder_.path() / file;
-      auto text = test::slurp(path);
-      const auto at = text.find(was);
-      ASSERT_NE(at, std::string::npos) << was;
-      std::ofstream(path, std::ios::binary) << text.replace(at, was.size(), is);
+      const auto numbers = static_cast<std::size_t>(components) * tuples;
+      replace_fields(folder_.path(), {{"displacement [mm]", 3, std::vector<float>(3 * 140, 0)},
+                                      {velocity, components, std::vector<float>(numbers, 0)}});
     });
     return refusal(flow_in_two_lumens());
   };
-  const std::string components = "NumberOfComponents=\"3\"", many = "NumberOfComponents=\"99999999999\"";
-  for (const char* file : {"lumen_000000.pvtu", "lumen_000000_0.vtu"}) {
-    const auto text = damaged(file, components, many);
-    EXPECT_NE(text.find(file), std::string::npos) << text;
-    EXPECT_NE(text.find("99999999999"), std::string::npos) << text;
-  }
   const auto expect = [&](const std::string& text, const char* what) {
     EXPECT_NE(text.find(what), std::string::npos) << text;
+    EXPECT_NE(text.find("lumen_000000.hdf"), std::string::npos) << text;
   };
-  const char* piece = "lumen_000000_0.vtu";
-  expect(damaged(piece, "NumberOfPoints=\"", "NumberOfPoints=\"9999"), piece);
-  expect(damaged(piece, "Name=\"pressure", "Name=\"pre\x01sure"), piece);
-  expect(damaged(piece, components, "NumberOfComponents=\"1\""), "does not have 3 components");
-  const char* head = "lumen_000000.pvtu";
-  expect(damaged(head, "pressure [mmHg]", "pressure [cm]"), "no numeric point array called pressure [cm]");
-  expect(damaged(head, "_0.vtu", "_9.vtu"), "lumen_000000_9.vtu");
-  expect(damaged(head, "</VTKFile>", ""), "the file ends before </VTKFile>");
+  expect(refused("velocity [cm s^-1]", 1, 140), "`velocity` does not have 3 components for each of 140 points");
+  expect(refused("velocity [cm s^-1]", 3, 139), "`velocity` does not have 3 components for each of 140 points");
+  expect(refused("velocity [mmHg]", 3, 140), "mmHg");
+  expect(refused("speed [cm s^-1]", 3, 140), "has no field `velocity`, only: displacement, speed");
 }
 
 TEST_F(FieldSeriesTest, SaysWhatIsMissing) {
   EXPECT_NE(refusal(flow_in_two_lumens()).find("holds no results of the region lumen"), std::string::npos);
   write({0});
-  spoil([&] {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-      auto text = test::slurp(entry.path());
-      for (std::size_t at; (at = text.find("wall shear stress")) != std::string::npos;)
-        text.replace(at, 17, "shear at the wall");
-      std::ofstream(entry.path(), std::ios::binary) << text;
-    }
-  });
-  auto text = refusal(flow_in_two_lumens());
-  EXPECT_NE(text.find("has no field `wall shear stress`"), std::string::npos) << text;
-  spoil([&] { std::filesystem::remove(folder_.path() / "lumen_000000.pvtu"); });
-  text = refusal(flow_in_two_lumens());
-  EXPECT_NE(text.find("lumen_000000.pvtu: is missing, though the series names it"), std::string::npos) << text;
+  spoil([&] { std::filesystem::remove(folder_.path() / "lumen_000000.hdf"); });
+  const auto text = refusal(flow_in_two_lumens());
+  EXPECT_NE(text.find("lumen_000000.hdf: is missing, though the series names it"), std::string::npos) << text;
   EXPECT_NE(text.find("run the case again"), std::string::npos) << text;
 }
 

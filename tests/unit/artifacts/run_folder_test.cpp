@@ -5,7 +5,7 @@
 #include "shared_folder.hpp"
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/field_io/series_index.hpp"
 
 namespace tunica::artifacts {
 namespace {
@@ -21,19 +21,32 @@ const std::string manifest =
 
 TEST(RunFolder, MissingFieldsAreNamed) {
   const SharedFolder folder(MPI_COMM_SELF);
-  folder.write("lumen.pvd", files::pvd_text({{0, "lumen_000000.pvtu"}, {1, "lumen_000001.pvtu"}, {2, "later.pvtu"}}));
-  for (const char* step : {"lumen_000000", "lumen_000001"}) {
-    folder.write(std::string(step) + ".pvtu", files::pvtu_text({}, {}, {std::string(step) + "_0.vtu"}));
-    folder.write(std::string(step) + "_0.vtu", "");
-  }
+  folder.write("lumen.hdf.series",
+               field_io::series_text({{0, "lumen_000000.hdf"}, {1, "lumen_000001.hdf"}, {2, "later.hdf"}}));
+  for (const char* file : {"lumen_mesh.hdf", "lumen_000000.hdf", "lumen_000001.hdf"}) folder.write(file, "");
   EXPECT_TRUE(missing_fields(folder.path(), {"lumen"}, 1).empty());
-  fs::remove(folder.path() / "lumen_000000.pvtu");
-  fs::remove(folder.path() / "lumen_000001_0.vtu");
+  fs::remove(folder.path() / "lumen_000000.hdf");
+  fs::remove(folder.path() / "lumen_mesh.hdf");
   const auto missing = missing_fields(folder.path(), {"lumen", "wall"}, 1);
   ASSERT_EQ(missing.size(), 3u);
-  EXPECT_EQ(missing[0].substr(0, 17), "lumen_000000.pvtu");
-  EXPECT_EQ(missing[1].substr(0, 18), "lumen_000001_0.vtu");
-  EXPECT_NE(missing[2].find("wall.pvd is missing"), std::string::npos);
+  EXPECT_EQ(missing[0].substr(0, 14), "lumen_mesh.hdf");
+  EXPECT_EQ(missing[1].substr(0, 16), "lumen_000000.hdf");
+  EXPECT_NE(missing[2].find("wall.hdf.series is missing"), std::string::npos);
+}
+
+TEST(RunFolder, SeriesOfEarlierVersionsAreRefusedAndRemoved) {
+  const SharedFolder folder(MPI_COMM_SELF);
+  for (const char* file : {"lumen.pvd", "lumen_000000.pvtu", "lumen_000000_0.vtu", "lumen_000000.hdf", "lumen_mesh.hdf",
+                           "lumen.hdf.series", "results.xdmf", "lumen_notes.hdf"})
+    folder.write(file, "");
+  fs::remove(folder.path() / "lumen.hdf.series");
+  EXPECT_NE(message_of<InputError>([&] { missing_fields(folder.path(), {"lumen"}, 1); }).find("earlier version"),
+            std::string::npos);
+  EarlierResults results;
+  results.regions = {"lumen"};
+  remove_results(folder.path(), results);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+  EXPECT_TRUE(fs::exists(folder.path() / "lumen_notes.hdf"));
 }
 
 TEST(RunFolder, NothingGoesOnWithoutAWholeCheckpointAndHistories) {
@@ -55,7 +68,7 @@ TEST(Manifest, TracesOfARunAreResults) {
   EXPECT_NE(message_of<InputError>([&] { find_results(folder.path()); }).find("is no manifest"), std::string::npos);
   folder.write("manifest.json", "{\"case\":");
   EXPECT_NE(message_of<InputError>([&] { find_results(folder.path()); }).find("is no manifest"), std::string::npos);
-  folder.write("steps.csv", ""), folder.write("balance.csv", ""), folder.write("lumen.pvd", "");
+  folder.write("steps.csv", ""), folder.write("balance.csv", ""), folder.write("lumen.hdf.series", "");
   EXPECT_EQ(find_results(folder.path())->damage, "is cut off or altered");
   EXPECT_EQ(find_results(folder.path())->regions, std::vector<std::string>{"lumen"});
   fs::remove(file);

@@ -1,18 +1,13 @@
 #include "tunica/distributed/results_writer.hpp"
 
 #include <fmt/format.h>
-#include <vtkCellData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPUnstructuredGridReader.h>
 
 #include <map>
 #include <set>
 
 #include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/files/series_file.hpp"
+#include "tunica/field_io/series_index.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "unit/mesh/check_mesh.hpp"
@@ -28,20 +23,19 @@ using test::message_of;
 class ResultsWriterTest : public ::testing::Test {
  protected:
   ResultsWriterTest() {
-    mesh::MeshData data;
     if (rank_ == 0) {
       folder_ = std::make_unique<test::TemporaryFolder>();
       directory_ = folder_->path().string();
-      data = mesh::tube({.radius = 0.01,
-                         .length = 0.03,
-                         .wall_thickness = 0.002,
-                         .cells_around = 8,
-                         .cells_radial = 1,
-                         .cells_along = 4,
-                         .cells_through_wall = 1});
+      data_ = mesh::tube({.radius = 0.01,
+                          .length = 0.03,
+                          .wall_thickness = 0.002,
+                          .cells_around = 8,
+                          .cells_radial = 1,
+                          .cells_along = 4,
+                          .cells_through_wall = 1});
     }
     parallel::broadcast(MPI_COMM_WORLD, directory_);
-    mesh_ = distribute(data, MPI_COMM_WORLD);
+    mesh_ = distribute(data_, MPI_COMM_WORLD);
     unknowns_.resize(4 * static_cast<std::size_t>(mesh_.nodes()));
     for (std::int32_t n = 0; n < mesh_.nodes(); ++n) {
       for (int d = 0; d < 3; ++d) unknowns_[4 * n + d] = 2 * mesh_.points[n][d];
@@ -52,64 +46,82 @@ class ResultsWriterTest : public ::testing::Test {
   }
   ~ResultsWriterTest() override { MPI_Barrier(MPI_COMM_WORLD); }  // before rank 0 removes the folder
 
-  ResultsWriter writer(std::optional<double> continue_from = {}, bool compress = false) {
-    return {mesh_,
-            {.directory = directory_, .length_factor = 1000, .compress = compress, .continue_from = continue_from}};
+  ResultsWriter writer(std::optional<double> continue_from = {}) {
+    return {mesh_, {.directory = directory_, .length_factor = 1000, .continue_from = continue_from}};
   }
   void write(ResultsWriter& to, std::int64_t step, double time) {
     const std::span all(unknowns_);
     const NodalArray nodal[] = {
-        {.name = "velocity [cm/s]", .components = 3, .values = all, .stride = 4, .factor = 100},
+        {.name = "velocity [cm s^-1]", .components = 3, .values = all, .stride = 4, .factor = 100},
         {.name = "pressure [mmHg]", .values = all.subspan(3), .stride = 4, .factor = 1 / 133.322, .region = 0}};
     const CellArray cells[] = {{.name = "element", .region = 1, .values = ids_}};
     to.write(step, time, nodal, cells);
   }
-  vtkUnstructuredGrid* read(vtkXMLPUnstructuredGridReader* reader, const std::string& file) {
-    reader->SetFileName((fs::path(directory_) / file).c_str());
-    reader->Update();
-    return reader->GetOutput();
-  }
+  field_io::FieldFile read(const std::string& file) const { return field_io::FieldFile(fs::path(directory_) / file); }
   std::vector<double> times(const std::string& region) {
     std::vector<double> result;
-    for (const auto& e : files::read_pvd(fs::path(directory_) / (region + ".pvd"))) result.push_back(e.time);
+    for (const auto& e : field_io::read_series(field_io::series_file(directory_, region))) result.push_back(e.time);
     return result;
   }
 
   int rank_ = parallel::rank(MPI_COMM_WORLD);
   std::unique_ptr<test::TemporaryFolder> folder_;
   std::string directory_;
+  mesh::MeshData data_;  // on rank 0
   DistributedMesh mesh_;
   std::vector<double> unknowns_, ids_;
 };
 
 }  // namespace
 
-TEST_F(ResultsWriterTest, PiecesTogetherHoldEachElementOnceAndTheFieldsInTheirUnits) {
-  for (bool compress : {false, true}) {
-    auto results = writer({}, compress);
-    write(results, 7, 0.25);
-    if (rank_ != 0) continue;
-    vtkNew<vtkXMLPUnstructuredGridReader> reader;
-    auto* lumen = read(reader, "lumen_000007.pvtu");
-    auto* velocity = lumen->GetPointData()->GetArray("velocity [cm/s]");
-    auto* pressure = lumen->GetPointData()->GetArray("pressure [mmHg]");
-    ASSERT_TRUE(velocity && pressure);
-    EXPECT_EQ(lumen->GetPointData()->GetNumberOfArrays(), 2);
-    EXPECT_EQ(lumen->GetCellData()->GetNumberOfArrays(), 0);
-    for (vtkIdType n = 0; n < lumen->GetNumberOfPoints(); ++n) {
-      double x[3];
-      lumen->GetPoint(n, x);  // mm
-      for (int d = 0; d < 3; ++d) EXPECT_NEAR(velocity->GetComponent(n, d), 2 * x[d] / 10, 1e-5);
-      EXPECT_NEAR(pressure->GetComponent(n, 0), (1000 + 50 * x[2]) / 133.322, 1e-4);
-    }
-    double volume = 0;
-    for (vtkIdType c = 0; c < lumen->GetNumberOfCells(); ++c) {
-      ASSERT_EQ(lumen->GetCellType(c), VTK_TETRA);
-      Vec3<double> x[4];
-      for (int a = 0; a < 4; ++a) lumen->GetPoint(lumen->GetCell(c)->GetPointId(a), x[a].x);
-      volume += fe::gradients(x).volume;
-    }
-    EXPECT_NEAR(volume, 4 * std::sqrt(2.0) / 2 * 100 * 2 * 30 / 2, 1);  // octagon of radius 10 mm times 30 mm
+TEST_F(ResultsWriterTest, FilesHoldEachElementOnceAndTheFieldsInTheirUnits) {
+  auto results = writer();
+  write(results, 7, 0.25);
+  if (rank_ != 0) return;
+  const auto file = read("lumen_000007.hdf");
+  EXPECT_EQ(file.time(), 0.25);
+  ASSERT_EQ(file.point_arrays(), (std::vector<field_io::ArrayHead>{{"pressure [mmHg]", 1}, {"velocity [cm s^-1]", 3}}));
+  EXPECT_TRUE(file.cell_arrays().empty());
+  const auto mesh = file.read_mesh();  // in mm
+  const auto velocity = file.read_points("velocity [cm s^-1]"), pressure = file.read_points("pressure [mmHg]");
+  ASSERT_EQ(pressure.size(), mesh.nodes());
+  ASSERT_EQ(velocity.size(), 3 * mesh.nodes());
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) {
+    for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(velocity[3 * n + d], 2 * mesh.points[3 * n + d] / 10, 1e-5);
+    EXPECT_NEAR(pressure[n], (1000 + 50 * mesh.points[3 * n + 2]) / 133.322, 1e-4);
+  }
+  double volume = 0;
+  ASSERT_EQ(mesh.nodes_of_cell, 4);
+  for (std::size_t c = 0; c < mesh.elements(); ++c) {
+    Vec3<double> x[4];
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t d = 0; d < 3; ++d)
+        x[a][static_cast<int>(d)] = mesh.points[3 * static_cast<std::size_t>(mesh.cells[4 * c + a]) + d];
+    volume += fe::gradients(x).volume;
+  }
+  EXPECT_NEAR(volume, 4 * std::sqrt(2.0) / 2 * 100 * 2 * 30 / 2, 1);  // octagon of radius 10 mm times 30 mm
+}
+
+TEST_F(ResultsWriterTest, TheOrderIsThatOfTheMeshWhateverNumberOfRanks) {
+  auto results = writer();
+  write(results, 0, 0);
+  if (rank_ != 0) return;
+  const auto mesh = read("wall_000000.hdf").read_mesh();
+  EXPECT_TRUE(mesh.node_ids.empty());  // they stand in the file of the mesh
+  const auto own = read("wall_mesh.hdf").read_mesh();
+  EXPECT_EQ(own.cells, mesh.cells);
+  for (std::size_t n = 0; n < own.nodes(); ++n) {
+    const auto& x = data_.points[static_cast<std::size_t>(own.node_ids[n])];
+    for (int d = 0; d < 3; ++d)
+      EXPECT_EQ(own.points[3 * n + static_cast<std::size_t>(d)], static_cast<float>((1000.0 * x)[d]));
+  }
+  const auto& region = data_.regions[1];
+  ASSERT_EQ(std::ssize(own.element_ids), region.end_element - region.first_element);
+  for (std::size_t e = 0; e < own.elements(); ++e) {
+    ASSERT_EQ(own.element_ids[e], region.first_element + static_cast<std::int64_t>(e));
+    for (std::size_t a = 0; a < 4; ++a)
+      EXPECT_EQ(own.node_ids[static_cast<std::size_t>(own.cells[4 * e + a])],
+                data_.tetrahedra[static_cast<std::size_t>(own.element_ids[e])][a]);
   }
 }
 
@@ -117,17 +129,43 @@ TEST_F(ResultsWriterTest, CellArraysAndRegionsAreKeptApart) {
   auto results = writer();
   write(results, 0, 0);
   if (rank_ != 0) return;
-  vtkNew<vtkXMLPUnstructuredGridReader> reader;
-  auto* wall = read(reader, "wall_000000.pvtu");
-  auto* element = wall->GetCellData()->GetArray("element");
-  ASSERT_TRUE(element);
-  EXPECT_FALSE(wall->GetPointData()->GetArray("pressure [mmHg]"));
-  std::set<double> ids;
-  for (vtkIdType c = 0; c < wall->GetNumberOfCells(); ++c) ids.insert(element->GetComponent(c, 0));
-  const std::int64_t elements = 8 * 4 * 6;
-  EXPECT_EQ(wall->GetNumberOfCells(), elements);
-  EXPECT_EQ(std::ssize(ids), elements);
-  EXPECT_EQ(*ids.rbegin() - *ids.begin(), elements - 1.0);
+  const auto wall = read("wall_000000.hdf");
+  ASSERT_EQ(wall.cell_arrays(), (std::vector<field_io::ArrayHead>{{"element", 1}}));
+  ASSERT_EQ(wall.point_arrays(), (std::vector<field_io::ArrayHead>{{"velocity [cm s^-1]", 3}}));
+  const auto ids = wall.read_cells("element");
+  ASSERT_EQ(ids.size(), 8u * 4 * 6);
+  for (std::size_t e = 0; e < ids.size(); ++e)
+    EXPECT_EQ(ids[e], static_cast<float>(data_.regions[1].first_element + static_cast<std::int64_t>(e)));
+}
+
+TEST_F(ResultsWriterTest, TheOverviewNamesWhatThereIs) {
+  auto results = writer();
+  write(results, 0, 0);
+  write(results, 1, 3 * 0.1);
+  if (rank_ != 0) return;
+  EXPECT_EQ(times("lumen"), (std::vector<double>{0, 0.3}));  // and not 0.30000000000000004
+  const auto text = test::slurp(fs::path(directory_) / "results.xdmf");
+  EXPECT_NE(text.find("<Time Value=\"0.3\"/>"), std::string::npos) << text;
+  std::set<std::string> named;
+  for (auto at = text.find(":/VTKHDF/"); at != std::string::npos; at = text.find(":/VTKHDF/", at + 1)) {
+    const auto begin = text.rfind('>', at) + 1;
+    named.insert(text.substr(begin, at - begin));
+  }
+  EXPECT_EQ(named, (std::set<std::string>{"lumen_000000.hdf", "lumen_000001.hdf", "lumen_mesh.hdf", "wall_000000.hdf",
+                                          "wall_000001.hdf", "wall_mesh.hdf"}));
+  for (const auto& file : named) EXPECT_TRUE(fs::exists(fs::path(directory_) / file)) << file;
+}
+
+TEST_F(ResultsWriterTest, EarlierInstantsKeepTheirMesh) {
+  {
+    auto results = writer();
+    write(results, 0, 0);
+  }
+  const auto of_another_unit = [&] {
+    ResultsWriter(mesh_, {.directory = directory_, .length_factor = 100, .continue_from = 0.0});
+  };
+  EXPECT_NE(message_of<InputError>(of_another_unit).find("is not the mesh that the run goes on with"),
+            std::string::npos);
 }
 
 TEST_F(ResultsWriterTest, SeriesGrowsAndRestartDropsLaterTimes) {
@@ -136,7 +174,7 @@ TEST_F(ResultsWriterTest, SeriesGrowsAndRestartDropsLaterTimes) {
     for (int step : {0, 10, 20, 30}) write(results, step, 0.1 * step);
   }
   if (rank_ == 0) {
-    EXPECT_EQ(times("lumen"), (std::vector<double>{0, 1, 2, 0.1 * 30}));
+    EXPECT_EQ(times("lumen"), (std::vector<double>{0, 1, 2, 3}));
   }
   MPI_Barrier(MPI_COMM_WORLD);
   {
@@ -150,7 +188,7 @@ TEST_F(ResultsWriterTest, SeriesGrowsAndRestartDropsLaterTimes) {
   if (rank_ == 0) {
     EXPECT_EQ(times("lumen"), (std::vector<double>{0, 1, 2, 2.5}));
     EXPECT_EQ(times("wall"), (std::vector<double>{0, 1, 2, 2.5}));
-    EXPECT_EQ(files::read_pvd(fs::path(directory_) / "wall.pvd").back().file, "wall_000025.pvtu");
+    EXPECT_EQ(field_io::read_series(field_io::series_file(directory_, "wall")).back().file, "wall_000025.hdf");
   }
   MPI_Barrier(MPI_COMM_WORLD);
   auto anew = writer();
@@ -164,9 +202,8 @@ TEST_F(ResultsWriterTest, SeriesGrowsAndRestartDropsLaterTimes) {
 TEST_F(ResultsWriterTest, FullDiskFailsOnAllRanksAndKeepsTheSeries) {
   auto results = writer();
   write(results, 1, 0.1);
-  // The device accepts no byte, like a full disk. Only the last rank meets it.
-  const int last = parallel::size(MPI_COMM_WORLD) - 1;
-  const auto bad = fs::path(directory_) / fmt::format("lumen_000002_{}.vtu", last);
+  // The device accepts no byte, like a full disk. Only rank 0 meets it.
+  const auto bad = fs::path(directory_) / "wall_000002.hdf";
   if (rank_ == 0) fs::create_symlink("/dev/full", bad);
   MPI_Barrier(MPI_COMM_WORLD);
   const auto message = message_of<SolverError>([&] { write(results, 2, 0.2); });
@@ -191,25 +228,10 @@ TEST_F(ResultsWriterTest, RefusesBadDirectoriesAndSeriesOnAllRanks) {
               ResultsWriter(mesh_, {.directory = file / "results"});
             }).find("the folder cannot be made"),
             std::string::npos);
-  if (rank_ == 0) std::ofstream(fs::path(directory_) / "wall.pvd") << "<VTKFile>\n<DataSet timestep=\"x\" file=\"a\"/>";
+  if (rank_ == 0) std::ofstream(field_io::series_file(directory_, "wall")) << "{\"files\": [{\"name\": \"a\"}]}";
   MPI_Barrier(MPI_COMM_WORLD);
-  EXPECT_NE(message_of<InputError>([&] { writer(1.0); }).find("is not a series that can be continued"),
-            std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { writer(1.0); }).find("is not a series of results"), std::string::npos);
   EXPECT_NO_THROW(writer());
-}
-
-TEST(SeriesFile, TimesAndNamesSurviveARoundTrip) {
-  const test::TemporaryFolder folder;
-  const auto path = folder.path() / "a.pvd";
-  EXPECT_TRUE(files::read_pvd(path).empty());
-  files::write_atomically(path, files::pvd_text({{0.1, "a_1.pvtu"}, {1.0 / 3, "a_2.pvtu"}}));
-  const auto series = files::read_pvd(path);
-  ASSERT_EQ(series.size(), 2u);
-  EXPECT_EQ(series[0].time, 0.1);
-  EXPECT_EQ(series[1].time, 1.0 / 3);
-  EXPECT_EQ(series[1].file, "a_2.pvtu");
-  files::write_atomically(path, files::pvd_text(series).substr(0, 120));
-  EXPECT_THROW(files::read_pvd(path), InputError);
 }
 
 }  // namespace tunica::distributed

@@ -354,7 +354,7 @@ TEST_F(Picture, DamagedFilesAreRefused) {
   std::ofstream(file("piece.vtu")) << "<VTKFile";
   expect(pieces("1"), "piece.vtu");
   std::ofstream(file("a.vti")) << "";
-  expect(message(front(file("a.vti"))), "give .vtu, .pvtu, .vtp, .pvtp or .pvd files");
+  expect(message(front(file("a.vti"))), "give .hdf.series, .hdf, .vtu, .pvtu, .vtp, .pvtp or .pvd files");
 }
 
 TEST_F(Picture, NamesTheArraysThatExist) {

@@ -7,9 +7,9 @@
 
 #include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/csv_file.hpp"
 #include "tunica/files/hash.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/files/time_stamp.hpp"
 
 namespace tunica::files {
@@ -66,38 +66,6 @@ TEST_F(Files, TablesThatAreNoneAreRefusedWithTheirLine) {
   EXPECT_TRUE(says(refusal("# nothing\n"), "give a table of flows"));
   EXPECT_TRUE(
       says(message_of<InputError>([&] { read_csv(folder_.path() / "none.csv", "give one"); }), "cannot be read"));
-}
-
-TEST_F(Files, SeriesKeepTheirTimesToTheLastBit) {
-  std::vector<SeriesEntry> series;
-  for (int k = 0; k < 50; ++k) series.push_back({std::sqrt(0.01 * k) / 3, "wall_" + std::to_string(k) + ".pvtu"});
-  write_atomically(folder_.path() / "wall.pvd", pvd_text(series));
-  const auto read = read_pvd(folder_.path() / "wall.pvd");
-  ASSERT_EQ(read.size(), series.size());
-  for (std::size_t k = 0; k < series.size(); ++k) {
-    EXPECT_EQ(read[k].time, series[k].time);
-    EXPECT_EQ(read[k].file, series[k].file);
-  }
-  EXPECT_TRUE(read_pvd(folder_.path() / "lumen.pvd").empty());
-}
-
-TEST_F(Files, SeriesThatAreCutOffOrChangedAreRefused) {
-  auto text = pvd_text({{0.5, "a.pvtu"}, {1, "b.pvtu"}});
-  const auto refusal = [&](const std::string& changed) {
-    const auto file = write("a.pvd", changed);
-    return message_of<InputError>([&] { read_pvd(file); });
-  };
-  EXPECT_EQ(refusal(text), "");
-  EXPECT_NE(refusal(text.substr(0, text.size() - 12)).find("not a complete .pvd file"), std::string::npos);
-  text.replace(text.find("0.5"), 3, "0,5");
-  EXPECT_NE(refusal(text).find("not a series that can be continued"), std::string::npos);
-  text.replace(text.find("0,5"), 3, "nan");
-  EXPECT_NE(refusal(text).find("not a series that can be continued"), std::string::npos);
-  text.replace(text.find("nan"), 3, std::string("0\0\x1b", 3));  // nothing that a terminal would take for an order
-  EXPECT_NE(refusal(text).find("timestep=\"0\\x00\\x1b\""), std::string::npos) << refusal(text);
-  fs::create_directories(folder_.path() / "b.pvd");
-  EXPECT_NE(message_of<InputError>([&] { read_pvd(folder_.path() / "b.pvd"); }).find("b.pvd: is a folder"),
-            std::string::npos);
 }
 
 TEST_F(Files, AFailedWriteLeavesTheOldFileAndNoOther) {

@@ -37,6 +37,8 @@ TEST(NamedFiles, VoxelsOfADetachedMetaImageHeader) {
 TEST(NamedFiles, PiecesOfVtkFiles) {
   EXPECT_EQ(names_in("a.pvd", "<DataSet timestep=\"0\" file=\"a_0.pvtu\"/>\n<DataSet file='b &amp; c.vtu'/>"),
             (Names{"a_0.pvtu", "b & c.vtu"}));
+  EXPECT_EQ(names_in("a.series", "{\"files\": [{\"name\": \"a_0.hdf\", \"time\": 0}, {\"name\":\"a_1.hdf\"}]}"),
+            (Names{"a_0.hdf", "a_1.hdf"}));
   EXPECT_EQ(names_in("a.pvtu", "<Piece Source=\"p0.vtu\"/><Piece Source=\"p1.vtu\"/>"), (Names{"p0.vtu", "p1.vtu"}));
   EXPECT_EQ(names_in("a.vtu", "<Piece Source=\"p0.vtu\"/>"), Names{}) << "a whole file";
 }

@@ -8,7 +8,7 @@
 namespace tunica::stages {
 
 config::Schema<ScanCase> ScanCase::schema() {
-  config::Schema<ScanCase> schema("tunica image", "File of `tunica image`, in YAML like a case file.");
+  config::Schema<ScanCase> schema("tunica synthesise", "File of `tunica synthesise`, in YAML like a case file.");
   schema.section("parametric", &ScanCase::parametric, geometry::ParametricDissection::schema(), "The dissection")
       .by_default();
   config::Schema<imaging::ScanSettings> scan("scan", "How the dissection is imaged and segmented.");

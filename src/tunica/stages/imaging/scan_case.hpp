@@ -1,4 +1,4 @@
-// The file of `tunica image`: an idealised dissection and how it is imaged.
+// The file of `tunica synthesise`: an idealised dissection and how it is imaged.
 #pragma once
 
 #include <filesystem>

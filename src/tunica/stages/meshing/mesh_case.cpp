@@ -9,10 +9,10 @@
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/json_text.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/files/heartbeat.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/files/phases.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/meshing/fidelity.hpp"
@@ -64,7 +64,8 @@ std::string summary_of(const geometry::Tetrahedra& mesh, const std::vector<meshi
 }  // namespace
 
 MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) {
-  files::Phases phases(say);
+  files::Heartbeat heartbeat(say);  // TetGen and remeshing are silent for minutes on large meshes
+  files::Phases phases([&](const std::string& line) { heartbeat.tell(line); });
   const auto tell = [&](const std::string& state) { phases.tell(state); };
   meshing::ComplexOptions options;
   options.sizes = case_file::size_settings(mesh_case.size);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tunica/files/series_file.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 

@@ -20,9 +20,10 @@
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/prestress.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/field_io/array_name.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/files/series_file.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
@@ -348,7 +349,7 @@ void PrestressRun::write_traction(const coupling::Problem& problem) {
     if (area[k / 4] > 0) traction[k] = local_forces_[k] / area[k / 4];
   if (wall_.quadratic) set_corners_to_mean(traction);
   const std::string unit = case_.output.units.stress;
-  const distributed::NodalArray array{.name = fmt::format("traction [{}]", unit),
+  const distributed::NodalArray array{.name = field_io::array_name("traction", unit),
                                       .components = 3,
                                       .values = traction,
                                       .stride = 4,

@@ -58,7 +58,7 @@ Scene scene_of(const Results& r) {
   if (r.manifest.is_object())
     for (const auto& region : r.manifest["mesh"]["regions"]) {
       const std::string name = region.at("name");
-      const fs::path series = r.folder("run") / (name + ".pvd");
+      const fs::path series = r.folder("run") / (name + ".hdf.series");
       if (fs::exists(series)) (name == "lumen" ? scene.lumen : scene.wall).push_back(series.string());
     }
   if (r.post.is_object() && r.post.contains("peak_s")) scene.peak = r.post["peak_s"].get<double>();

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 
+#include "tunica/artifacts/answer.hpp"
 #include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/histories.hpp"
 #include "tunica/artifacts/lumen_histories.hpp"
@@ -97,6 +98,9 @@ class Run {
 
   std::string time_text(double seconds) const;
   std::string step_line(const StepReport& report, double dt) const;
+  std::string progress_note(std::int64_t end, double seconds, std::int64_t since) const;
+  double planned_time() const;
+  void tell_answer();
   std::string tears_text(const coupling::StepRecord& record) const;
 
   const ReadCase& input_;
@@ -148,10 +152,11 @@ Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE*
   if (!continued()) refuse_tables_that_end(comm_, case_, grid_, end_step());
   pose();
   prepare_folder();
-  log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen});
+  log_.emplace(comm_,
+               parallel::Log::Targets{.file = folder_ / "run.log", .screen = screen, .verbose = request.verbose});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
-  if (!case_.title.empty()) log_->info(case_.title);
-  for (const auto& line : input_.mesh.report) log_->info(line);
+  if (!case_.title.empty()) log_->heading(case_.title);
+  for (const auto& line : input_.mesh.report) log_->detail(line);
   for (const auto& line : input_.warnings) log_->warning(line);
   for (const auto& line : input_.mesh.warnings) log_->warning(line);
   describe_problem();
@@ -227,7 +232,9 @@ void Run::pose() {
 void Run::describe_problem() {
   log_->info(fmt::format("{} nodes, {} elements, {}, {}", mesh_.global_nodes, mesh_.global_elements,
                          plural(parallel::size(comm_), "rank"), assembly::name(assembly::choose_isa())));
-  for (const auto& line : problem_->notes()) log_->info(line);
+  for (const auto& line : problem_->notes()) log_->detail(line);
+  log_->info(fmt::format("{} to t = {}, into {}; every step is told in run.log", plural(end_step(), "step"),
+                         time_text(planned_time()), folder_.string()));
   if (case_.start && !continued()) log_->info(fmt::format("starting from {}", case_.start->string()));
 }
 
@@ -333,6 +340,37 @@ std::string Run::tears_text(const coupling::StepRecord& record) const {
   return text + " " + unit;
 }
 
+/// "step 40/80  t 0.2 s  3.1 steps/s"
+std::string Run::progress_note(std::int64_t end, double seconds, std::int64_t since) const {
+  const double rate = seconds > 0 ? static_cast<double>(grid_.steps_done() - since) / seconds : 0;
+  const auto speed =
+      rate >= 1 || rate <= 0 ? fmt::format("{:.3g} steps/s", rate) : fmt::format("{:.3g} s/step", 1 / rate);
+  return fmt::format("step {}/{}  t {}  {}", grid_.steps_done(), end, time_text(grid_.time()), speed);
+}
+
+double Run::planned_time() const {
+  const auto end = static_cast<double>(end_step());
+  return is_static() ? end / static_cast<double>(last_step()) : end * case_.time->step;
+}
+
+// Least, mean and largest pressure and flow of each opening over the last cycle, or over the whole run.
+void Run::tell_answer() {
+  if (!case_.solves_fluid() || is_static()) return;
+  const double from = case_.time->cycles ? (grid_.time() - case_.time->cycles->period) / time_unit_ : -HUGE_VAL;
+  std::vector<std::string> faces;
+  for (const auto& face : mesh_.faces)
+    if (mesh_.regions[static_cast<std::size_t>(face.region)].kind == mesh::RegionKind::lumen)
+      faces.push_back(face.name);
+  on_disk([&] {
+    parallel::on_root(comm_, [&] {
+      const auto lines = artifacts::answer_lines(folder_ / "faces.csv", openings(case_, faces), from);
+      if (lines.empty()) return;
+      log_->heading(case_.time->cycles ? "last cycle: least, mean, largest" : "whole run: least, mean, largest");
+      for (const auto& line : lines) log_->info(line);
+    });
+  });
+}
+
 StepReport Run::attempt() {
   const double size = grid_.next_step();
   return is_static() ? problem_->solve_static(state_, grid_.time() + size) : problem_->advance(state_, size);
@@ -369,7 +407,7 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   p.timings.linear += report.timings.linear;
   p.timings.mesh += report.timings.mesh;
   p.timings.total += report.timings.total;
-  log_->info(step_line(report, dt) + tears_text(history.record));
+  log_->detail(step_line(report, dt) + tears_text(history.record));
 }
 
 void Run::rejected(const StepReport& report) {
@@ -580,6 +618,8 @@ RunOutcome Run::compute() {
   }
   if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
   double saved = MPI_Wtime();
+  const double begun = saved;
+  const std::int64_t begun_at = grid_.steps_done();
   bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
   while (grid_.steps_done() < end && !periodic) {
     const auto done = grid_.steps_done();
@@ -594,7 +634,7 @@ RunOutcome Run::compute() {
       saved = MPI_Wtime();
     }
     if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
-    bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
+    bar_->update(static_cast<double>(grid_.steps_done()), progress_note(end, MPI_Wtime() - begun, begun_at));
   }
   bar_.reset();
   if (outcome.signal == 0) write_fields();
@@ -609,6 +649,7 @@ RunOutcome Run::compute() {
                               sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
                               resume));
   } else {
+    tell_answer();
     log_->info(fmt::format("{} in {:.1f} s ({:.1f} s set-up), {:.0f} MB of memory; results in {}",
                            plural(grid_.steps_done(), "step"), progress_.total_seconds, progress_.set_up_seconds,
                            progress_.peak_memory / 1e6, folder_.string()));

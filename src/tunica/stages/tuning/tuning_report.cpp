@@ -11,8 +11,8 @@
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/outputs.hpp"
-#include "tunica/files/series_file.hpp"
 
 namespace tunica::stages {
 
