@@ -1,7 +1,7 @@
 // The files of results: the mesh of a region, and its fields at one instant, in HDF5.
 //
 // Both are VTKHDF files of version 1.0 (https://docs.vtk.org, "VTKHDF file format"), an unstructured grid in one piece,
-// which VTK reads since 9.0 and ParaView since 5.10. The mesh stands in a file of its own and is written once; the file
+// which VTK reads since 9.1 and ParaView since 5.10. The mesh stands in a file of its own and is written once; the file
 // of an instant refers to it by links of HDF5, which every reader follows. Numbers are packed (shuffle and deflate).
 #pragma once
 

@@ -43,9 +43,8 @@ TEST(Case, PulseInACompliantTube) {
     EXPECT_TRUE(fs::exists(results / file)) << file;
   EXPECT_FALSE(fs::exists(results / "lumen_000003.hdf"));
   if (parallel::rank(MPI_COMM_WORLD) == 0) {
-    EXPECT_NE(printed.find("step 10/10  t 1 ms"), std::string::npos) << printed;  // of the progress
-    EXPECT_EQ(printed.find("newton"), std::string::npos) << printed;
-    EXPECT_NE(slurp(results / "run.log").find("step 10/10  t 1 ms  newton"), std::string::npos);
+    EXPECT_NE(printed.find("step 10/10  t 1 ms  newton"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("ETA 0:00, step 10/10  t 1 ms  "), std::string::npos) << printed;
     EXPECT_NE(printed.find("whole run: least, mean, largest"), std::string::npos) << printed;
     EXPECT_NE(slurp(results / "wall_000010.hdf").find("von Mises stress [kPa]"), std::string::npos);
     EXPECT_NE(slurp(results / "lumen_000010.hdf").find("wall shear stress [Pa]"), std::string::npos);

@@ -58,6 +58,7 @@ inline std::string run(const fs::path& case_file, stages::RunRequest request = {
                        stages::RunOutcome* outcome = nullptr) {
   request.case_file = case_file;
   request.program = {"test", "none"};
+  request.verbose = true;  // every step is told
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* screen = open_memstream(&text, &size);

@@ -31,7 +31,13 @@ const std::string sound =
 TEST_F(RunCommand, ZeroWhenDone) {
   write_case(sound);
   EXPECT_EQ(run(""), 0) << printed();
-  EXPECT_NE(printed().find("step 6/6"), std::string::npos) << printed();
+  for (const char* told : {"step 6/6", "ETA 0:00", "whole run: least, mean, largest", "  lumen_outlet "})
+    EXPECT_NE(printed().find(told), std::string::npos) << told << printed();
+  EXPECT_EQ(printed().find("newton"), std::string::npos) << printed();
+  EXPECT_NE(slurp(folder_ / "results/run.log").find("newton"), std::string::npos);
+  EXPECT_EQ(printed().find('\033'), std::string::npos) << "colours in a file";
+  EXPECT_EQ(run("--overwrite --verbose"), 0) << printed();
+  EXPECT_NE(printed().find("newton"), std::string::npos) << printed();
   EXPECT_NE(slurp(folder_ / "results/manifest.json").find("\"commit\""), std::string::npos);
 }
 

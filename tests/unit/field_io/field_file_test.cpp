@@ -110,24 +110,29 @@ TEST_F(FieldFileTest, WhatIsCutOffOrIsNoSuchFileIsRefused) {
   EXPECT_NE(refusal().find("is no file of results"), std::string::npos);
 }
 
-// Packed numbers have a checksum; heads of HDF5 1.8 have none, and there a changed byte may mean another number.
+// Packed numbers have a checksum. Heads of HDF5 have none, and half of so small a file is space that nothing reads.
 TEST_F(FieldFileTest, NoDamageEndsTheProgram) {
   write(3000);
   const std::string whole = test::slurp(file_);
-  int refused = 0;
+  int refused = 0, altered = 0;
   for (std::size_t at = 0; at < whole.size(); at += 97) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x5a);
     std::ofstream(file_, std::ios::binary) << damaged;
     try {
       const FieldFile file(file_);
-      for (const auto& array : file.point_arrays()) file.read_points(array.name);
+      for (const auto& array : file.point_arrays()) {
+        const auto values = file.read_points(array.name);
+        altered += array.name[0] == 'v' && values.size() == instant_.points[0].values.size() &&
+                   values != instant_.points[0].values;
+      }
       for (const auto& array : file.cell_arrays()) file.read_cells(array.name);
     } catch (const InputError&) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, static_cast<int>(whole.size() / 97 / 2));
+  EXPECT_GT(refused, 40);
+  EXPECT_EQ(altered, 0);
 }
 
 TEST_F(FieldFileTest, CellsWithNodesThatAreNotThereAreRefused) {

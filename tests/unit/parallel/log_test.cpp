@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "tunica/base/error.hpp"
@@ -93,7 +95,76 @@ TEST(Log, RefusesAnUnwritableFileOnAllRanks) {
   EXPECT_THROW(Log(MPI_COMM_WORLD, {.file = "/nonexistent/folder/run.log", .screen = nullptr}), InputError);
 }
 
+/// The variables that decide on colours, put back at the end.
+class Colours {
+ public:
+  Colours(const char* none, const char* term) : none_(of("NO_COLOR")), term_(of("TERM")) {
+    set("NO_COLOR", none ? std::optional<std::string>(none) : std::nullopt);
+    set("TERM", term);
+  }
+  ~Colours() {
+    set("NO_COLOR", none_);
+    set("TERM", term_);
+  }
+
+ private:
+  static std::optional<std::string> of(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? std::optional<std::string>(value) : std::nullopt;
+  }
+  static void set(const char* name, const std::optional<std::string>& value) {
+    if (value)
+      setenv(name, value->c_str(), 1);
+    else
+      unsetenv(name);
+  }
+  std::optional<std::string> none_, term_;
+};
+
+TEST(Log, ColoursOnATerminalUnlessTheyAreNotWanted) {
+  const auto shown = [](const char* none, const char* term) {
+    const Colours colours(none, term);
+    const Terminal terminal;
+    Log log(MPI_COMM_WORLD, {.screen = terminal.stream});
+    if (rank(MPI_COMM_WORLD) != 0) return std::string();
+    log.heading("a tube");
+    log.warning("coarse");
+    log.info("done");
+    return terminal.text();
+  };
+  const std::string plain = rank(MPI_COMM_WORLD) == 0 ? "a tube\r\nwarning: coarse\r\ndone\r\n" : "";
+  const std::string bright =
+      rank(MPI_COMM_WORLD) == 0 ? "\033[1ma tube\033[0m\r\n\033[1;33mwarning:\033[0m coarse\r\ndone\r\n" : "";
+  EXPECT_EQ(shown(nullptr, "xterm"), bright);
+  EXPECT_EQ(shown("", "xterm"), bright) << "empty counts as not set, says no-color.org";
+  EXPECT_EQ(shown("1", "xterm"), plain);
+  EXPECT_EQ(shown(nullptr, "dumb"), plain);
+}
+
+TEST(Log, DetailsGoToTheFileAndToAVerboseScreen) {
+  const SharedFile file;
+  for (const bool verbose : {false, true}) {
+    char* text = nullptr;
+    std::size_t size = 0;
+    std::FILE* screen = open_memstream(&text, &size);
+    {
+      Log log(MPI_COMM_WORLD, {.file = file.path, .screen = screen, .verbose = verbose});
+      log.detail("newton 3");
+      log.heading("a tube");
+    }
+    std::fclose(screen);
+    if (rank(MPI_COMM_WORLD) == 0) {
+      EXPECT_EQ(std::string(text, size), verbose ? "newton 3\na tube\n" : "a tube\n");
+    }
+    std::free(text);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string text = file.text();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << text;
+}
+
 TEST(Log, KeepsTheStatusLineBelowMessagesOnATerminal) {
+  const Colours colours("1", "xterm");
   const Terminal terminal;
   Log log(MPI_COMM_WORLD, {.screen = terminal.stream});
   EXPECT_TRUE(log.on_terminal());
