@@ -203,7 +203,7 @@ TEST_F(FieldSeriesTest, DamagedFilesAreRefused) {
       std::ofstream(path, std::ios::binary) << text.substr(0, text.size() / 2);
     });
     const auto text = refusal(flow_in_two_lumens());
-    EXPECT_NE(text.find(name[5] == 'm' ? "lumen_" : name), std::string::npos) << text;
+    EXPECT_NE(text.find(name[6] == 'm' ? "lumen_" : name), std::string::npos) << text;
   }
 }
 
