@@ -53,11 +53,11 @@ void add_picture(CLI::App& app) {
   CLI::App* command = app.add_subcommand("picture", "Draw results or meshes as a PNG or a movie, without a screen");
   command->footer(
       "Needs an X display, which xvfb-run provides. Example:\n"
-      "  xvfb-run -a tunica picture results/lumen.pvd --array pressure --clip 0 0 0 0 -1 0 -o pressure.png\n"
-      "  xvfb-run -a tunica picture results/lumen.pvd --streamlines velocity --movie -o flow.webm");
+      "  xvfb-run -a tunica picture results/lumen.hdf.series --array pressure --clip 0 0 0 0 -1 0 -o pressure.png\n"
+      "  xvfb-run -a tunica picture results/lumen.hdf.series --streamlines velocity --movie -o flow.webm");
   const auto a = std::make_shared<Arguments>();
   auto& o = a->options;
-  command->add_option("files", o.inputs, "Time series (.pvd) or meshes (.vtu, .pvtu, .vtp, .pvtp), drawn together")
+  command->add_option("files", o.inputs, "Time series (.hdf.series, .pvd) or meshes (.hdf, .vtu, .pvtu, .vtp, .pvtp), drawn together")
       ->required();
   command
       ->add_option("-o,--output", o.output,

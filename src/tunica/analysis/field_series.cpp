@@ -59,7 +59,7 @@ std::string printable_names(const std::vector<field_io::ArrayHead>& arrays) {
 /// Points of the files by the nodes of a region, and their cells by the elements.
 struct Numbering {
   std::vector<std::int64_t> nodes, elements;  ///< of MeshData, by point, and by cell and its part
-  std::size_t parts = 1;                      ///< elements of MeshData in a cell: 8 of a quadratic one
+  std::size_t parts = 1;                      ///< elements of MeshData in a cell: 8 where a quadratic one is subdivided
 };
 
 }  // namespace
@@ -135,8 +135,10 @@ struct FieldSeries::Implementation {
     std::vector<std::int64_t> cells;
     const auto width = static_cast<std::size_t>(mesh.nodes_of_cell);
     constexpr int whole[1][4] = {{0, 1, 2, 3}};
+    const bool quadratic = width == 10, same = !data.edges.empty();
+    if (same && !quadratic) refuse(file, "has linear elements, the mesh has quadratic ones");
     const auto parts =
-        width == 10 ? std::span<const int[4]>(mesh::parts_of_tetrahedron) : std::span<const int[4]>(whole);
+        quadratic && !same ? std::span<const int[4]>(mesh::parts_of_tetrahedron) : std::span<const int[4]>(whole);
     n.parts = parts.size();
     for (std::size_t e = 0; e < mesh.elements(); ++e)
       for (const auto& part : parts)
@@ -155,11 +157,14 @@ struct FieldSeries::Implementation {
     const double factor = 1 / config::unit_factor(description.length_unit, dimension::length);
     std::unordered_map<Place, std::int64_t, PlaceHash> known;
     const auto& r = data.regions[region];
-    for (auto e = r.first_element; e < r.end_element; ++e)
-      for (const auto node : data.tetrahedra[static_cast<std::size_t>(e)]) {
-        const auto x = factor * data.points[static_cast<std::size_t>(node)];
-        known.emplace(Place{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])}, node);
-      }
+    const auto know = [&](std::int64_t node) {
+      const auto x = factor * data.points[static_cast<std::size_t>(node)];
+      known.emplace(Place{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])}, node);
+    };
+    for (auto e = static_cast<std::size_t>(r.first_element); e < static_cast<std::size_t>(r.end_element); ++e) {
+      std::for_each(data.tetrahedra[e].begin(), data.tetrahedra[e].end(), know);
+      if (!data.edges.empty()) std::for_each(data.edges[e].begin(), data.edges[e].end(), know);
+    }
     for (std::size_t i = 0; i < mesh.points.size(); i += 3) {
       const Place place{mesh.points[i], mesh.points[i + 1], mesh.points[i + 2]};
       const auto found = known.find(place);

@@ -26,7 +26,8 @@ struct FieldFrame {
 /// Not collective: any rank may read any frame.
 class FieldSeries {
  public:
-  /// `data` must outlive this. Throws InputError when there are no results, or they are of another mesh.
+  /// `data` must outlive this; that of quadratic elements as it is (mesh::add_edge_nodes) or subdivided
+  /// (mesh::subdivided). Throws InputError when there are no results, or they are of another mesh.
   FieldSeries(const RunDescription& run, const mesh::MeshData& data, std::filesystem::path folder);
   ~FieldSeries();
   FieldSeries(FieldSeries&&) noexcept;

@@ -300,7 +300,7 @@ std::vector<Step> steps_of(const PictureOptions& options) {
   const auto timed =
       std::find_if(series.begin(), series.end(), [](const auto& steps) { return steps.size() > 1 && steps[0].time; });
   if (timed == series.end())
-    throw InputError("picture movie", "no input is a series of several steps", "give the .pvd of a run");
+    throw InputError("picture movie", "no input is a series of several steps", "give the .hdf.series of a run");
   std::vector<Step> steps;
   for (const auto& step : *timed) steps.push_back(step_at(series, step.time));
   return steps;

@@ -143,6 +143,19 @@ TEST_F(Export, WritesResultsAsThePeerDoes) {
   EXPECT_NE(volume, 1.0);
 }
 
+TEST_F(Export, WritesResultsOfQuadraticElementsAtAllTheirNodes) {
+  std::string quadratic = coupled;
+  quadratic.replace(quadratic.find("elements: linear"), 16, "elements: quadratic");
+  quadratic.replace(quadratic.find("steps: 3"), 8, "steps: 1");
+  write("case.yaml", quadratic);
+  ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
+  ASSERT_EQ(tunica("export case.yaml -o peer --units cgs --results"), 0) << printed();
+  const std::string head = read("peer/result_001.vtu");
+  const auto points = head.find("NumberOfPoints=\"");
+  ASSERT_NE(points, std::string::npos);
+  EXPECT_GT(std::stol(head.substr(points + 16)), 1000);  // of 8 x 4 cells around and along; corners are some hundreds
+}
+
 TEST_F(Export, RefusesWhatThePeerCannotPose) {
   std::string text = coupled;
   const auto exclusion = text.find("exclusion: none");

@@ -12,6 +12,7 @@
 #include "tunica/distributed/results_writer.hpp"
 #include "tunica/field_io/series_index.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 
 namespace tunica::analysis {
 namespace {
@@ -147,6 +148,31 @@ TEST_F(FieldSeriesTest, LengthsMayBeInAnyUnit) {
   const auto text = refusal(run);
   EXPECT_NE(text.find("where the mesh has none"), std::string::npos) << text;
   EXPECT_NE(text.find("`output.units.length` has changed since"), std::string::npos) << text;
+}
+
+TEST_F(FieldSeriesTest, QuadraticElementsAreReadAsTheyAreOrSubdivided) {
+  write({0});
+  const auto linear = data_;
+  mesh::add_edge_nodes(data_);
+  EXPECT_NE(refusal(flow_in_two_lumens()).find("has linear elements, the mesh has quadratic ones"), std::string::npos);
+  MPI_Barrier(MPI_COMM_WORLD);
+  mesh_ = distributed::distribute(data_, MPI_COMM_WORLD);
+  write({0.5});
+  const auto expected = nodal_vectors(data_, [](const auto& x) { return 0.5 * displacement(x); });
+  for (const auto& mesh : {data_, mesh::subdivided(data_)}) {
+    const auto frame = FieldSeries(flow_in_two_lumens(), mesh, folder_.path()).read(0);
+    ASSERT_EQ(frame.displacement.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(frame.displacement[i], expected[i], 1e-7);
+    for (auto e = mesh.regions[0].first_element; e < mesh.regions[0].end_element; ++e)
+      for (const auto node : mesh.tetrahedra[static_cast<std::size_t>(e)])
+        EXPECT_NEAR(frame.pressure[static_cast<std::size_t>(node)],
+                    pressure(mesh.points[static_cast<std::size_t>(node)]) + 0.5, 2e-3);
+    const auto parts = mesh.tetrahedra.size() / data_.tetrahedra.size();
+    for (auto e = static_cast<std::size_t>(mesh.regions[1].first_element); e < mesh.tetrahedra.size(); ++e)
+      EXPECT_NEAR(frame.stress[0][e], 1000 * (static_cast<double>(e / parts) + 0.5), 0.1);
+  }
+  data_ = linear;
+  EXPECT_NE(refusal(flow_in_two_lumens()).find("where the mesh has none"), std::string::npos);
 }
 
 TEST_F(FieldSeriesTest, OnlyTimesThatAllRegionsHaveCount) {
