@@ -32,20 +32,22 @@ std::vector<std::int64_t> owned_element_ids(const Region& region) {
 
 }  // namespace
 
-RegionLayout::RegionLayout(const DistributedMesh& mesh, const Region& region)
-    : comm_(mesh.comm), nodes_(owned_nodes_of(mesh, region)) {
+RegionLayout::RegionLayout(const DistributedMesh& mesh, const Region& region, int root)
+    : comm_(mesh.comm), root_(root), nodes_(owned_nodes_of(mesh, region)) {
   std::vector<std::int64_t> ids;
   for (const auto n : nodes_) ids.push_back(mesh.original_ids[static_cast<std::size_t>(n)]);
   node_order_ = order_of(ids);
   element_order_ = order_of(owned_element_ids(region));
+  global_nodes_ = parallel::global_sum(comm_, static_cast<std::int64_t>(std::ssize(nodes_)));
+  global_elements_ = parallel::global_sum(comm_, std::int64_t{region.owned_elements});
 }
 
 RegionLayout::Order RegionLayout::order_of(const std::vector<std::int64_t>& mine) const {
   Order order;
   const int count = static_cast<int>(mine.size());
   order.counts.resize(static_cast<std::size_t>(parallel::size(comm_)));
-  MPI_Gather(&count, 1, MPI_INT, order.counts.data(), 1, MPI_INT, 0, comm_);
-  if (parallel::rank(comm_) == 0) {
+  MPI_Gather(&count, 1, MPI_INT, order.counts.data(), 1, MPI_INT, root_, comm_);
+  if (is_here()) {
     order.starts.resize(order.counts.size());
     std::exclusive_scan(order.counts.begin(), order.counts.end(), order.starts.begin(), 0);
     order.place.resize(static_cast<std::size_t>(order.starts.back() + order.counts.back()));
@@ -69,7 +71,7 @@ std::vector<T> RegionLayout::gather(const Order& order, const std::vector<T>& mi
   const auto width = static_cast<std::size_t>(components);
   std::vector<T> arrived(order.place.size() * width);
   MPI_Gatherv(mine.data(), static_cast<int>(mine.size() / width), tuple, arrived.data(), order.counts.data(),
-              order.starts.data(), tuple, 0, comm_);
+              order.starts.data(), tuple, root_, comm_);
   MPI_Type_free(&tuple);
   std::vector<T> rows(arrived.size());
   for (std::size_t k = 0; k < order.place.size(); ++k)

@@ -55,15 +55,28 @@ struct ResultsWriter::Implementation {
   const DistributedMesh& mesh;
   ResultsOptions options;
   std::vector<RegionLayout> layouts;
-  std::vector<field_io::RegionIndex> index;  ///< rank 0
+  std::vector<field_io::RegionIndex> index;  ///< series: on rank 0
 
+  // Regions are dealt out to the ranks, which pack and write them at the same time.
   Implementation(const DistributedMesh& m, const ResultsOptions& o) : mesh(m), options(o) {
     parallel::on_root(mesh.comm, [&] { prepare_directory(); });
+    std::vector<field_io::RegionMesh> shapes;
     for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-      layouts.emplace_back(mesh, mesh.regions[r]);
-      const auto shape = layouts.back().mesh(mesh, mesh.regions[r], options.length_factor);
-      parallel::on_root(mesh.comm, [&] { write_mesh(index[r], shape); });
+      const auto& layout = layouts.emplace_back(mesh, mesh.regions[r], static_cast<int>(r) % parallel::size(mesh.comm));
+      shapes.push_back(layout.mesh(mesh, mesh.regions[r], options.length_factor));
+      index.push_back({.name = mesh.regions[r].name,
+                       .nodes = static_cast<std::size_t>(layout.nodes()),
+                       .elements = static_cast<std::size_t>(layout.elements()),
+                       .nodes_of_cell = mesh.quadratic ? 10 : 4,
+                       .points = {},
+                       .cells = {},
+                       .series = {}});
     }
+    const auto keeps = take_series();
+    parallel::agree(mesh.comm, [&] {
+      for (std::size_t r = 0; r < layouts.size(); ++r)
+        if (layouts[r].is_here()) write_mesh(index[r].name, shapes[r], keeps[r] != 0);
+    });
   }
 
   void prepare_directory() {
@@ -72,33 +85,33 @@ struct ResultsWriter::Implementation {
     std::vector<fs::path> names;
     for (const auto& region : mesh.regions) names.emplace_back(field_io::instant_file(region.name, largest_step));
     files::try_outputs(options.directory, names);
-    for (const auto& region : mesh.regions) {
-      index.push_back({.name = region.name,
-                       .nodes = 0,
-                       .elements = 0,
-                       .nodes_of_cell = 4,
-                       .points = {},
-                       .cells = {},
-                       .series = {}});
-      if (!options.continue_from) continue;
-      auto& series = index.back().series;
-      series = field_io::read_series(series_path(region.name));
+  }
+
+  /// Reads what the run goes on with, on rank 0; for each region, on all ranks, whether there are earlier instants.
+  std::vector<int> take_series() {
+    std::vector<int> keeps(index.size(), 0);
+    if (!options.continue_from) return keeps;
+    parallel::on_root(mesh.comm, [&] {
       // The margin is for times of a series, which have 12 digits.
       const double last = *options.continue_from + 1e-11 * std::abs(*options.continue_from);
-      std::erase_if(series, [&](const field_io::SeriesEntry& e) { return e.time > last; });
-    }
+      for (std::size_t r = 0; r < index.size(); ++r) {
+        auto& series = index[r].series;
+        series = field_io::read_series(series_path(index[r].name));
+        std::erase_if(series, [&](const field_io::SeriesEntry& e) { return e.time > last; });
+        keeps[r] = series.empty() ? 0 : 1;
+      }
+    });
+    parallel::broadcast(mesh.comm, keeps);
+    return keeps;
   }
 
   fs::path series_path(const std::string& region) const { return field_io::series_file(options.directory, region); }
 
-  void write_mesh(field_io::RegionIndex& entry, const field_io::RegionMesh& shape) const {
-    entry.nodes = shape.nodes();
-    entry.elements = shape.elements();
-    entry.nodes_of_cell = shape.nodes_of_cell;
-    const fs::path file = options.directory / field_io::mesh_file(entry.name);
+  void write_mesh(const std::string& region, const field_io::RegionMesh& shape, bool keeps) const {
+    const fs::path file = options.directory / field_io::mesh_file(region);
     const std::string bytes = field_io::mesh_bytes(shape);
     if (holds(file, bytes)) return;
-    if (!entry.series.empty() && fs::exists(file))
+    if (keeps && fs::exists(file))
       throw InputError(file.string(), "is not the mesh that the run goes on with, and earlier instants refer to it",
                        "put back the mesh and `output.units.length`, or begin anew with --overwrite");
     files::write_atomically(file, bytes);
@@ -117,12 +130,9 @@ struct ResultsWriter::Implementation {
     return instant;
   }
 
-  void write_instant(std::size_t r, std::int64_t step, const field_io::Instant& instant) {
-    auto& entry = index[r];
-    entry.points = heads(instant.points);
-    entry.cells = heads(instant.cells);
-    files::write_atomically(options.directory / field_io::instant_file(entry.name, step),
-                            field_io::instant_bytes(instant, field_io::mesh_file(entry.name)));
+  void write_instant(const std::string& region, std::int64_t step, const field_io::Instant& instant) const {
+    files::write_atomically(options.directory / field_io::instant_file(region, step),
+                            field_io::instant_bytes(instant, field_io::mesh_file(region)));
   }
 
   // Only when all regions are written, so that their series stay equally long unless the very last renaming fails.
@@ -155,8 +165,14 @@ void ResultsWriter::write(std::int64_t step, double time, std::span<const NodalA
   for ([[maybe_unused]] const auto& a : cells)
     assert(a.values.size() == static_cast<std::size_t>(self.mesh.regions[a.region].owned_elements) * a.components);
   const double clean = base::without_noise(time);
-  const auto on_root = [&](const auto& action) {
-    parallel::on_root(self.mesh.comm, [&] {
+  std::vector<field_io::Instant> instants;
+  for (std::size_t r = 0; r < self.layouts.size(); ++r) {
+    instants.push_back(self.gather(r, clean, nodal, cells));
+    self.index[r].points = heads(instants[r].points);
+    self.index[r].cells = heads(instants[r].cells);
+  }
+  const auto together = [&](const auto& action) {
+    parallel::agree(self.mesh.comm, [&] {
       try {
         action();
       } catch (const SolverError& error) {
@@ -164,11 +180,13 @@ void ResultsWriter::write(std::int64_t step, double time, std::span<const NodalA
       }
     });
   };
-  for (std::size_t r = 0; r < self.layouts.size(); ++r) {
-    const auto instant = self.gather(r, clean, nodal, cells);
-    on_root([&] { self.write_instant(r, step, instant); });
-  }
-  on_root([&] { self.write_lists(step, clean); });
+  together([&] {
+    for (std::size_t r = 0; r < instants.size(); ++r)
+      if (self.layouts[r].is_here()) self.write_instant(self.index[r].name, step, instants[r]);
+  });
+  together([&] {
+    if (parallel::rank(self.mesh.comm) == 0) self.write_lists(step, clean);
+  });
 }
 
 }  // namespace tunica::distributed

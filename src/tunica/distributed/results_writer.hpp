@@ -45,8 +45,9 @@ void check_region_names(const DistributedMesh& mesh);
 /// Writes for each region `<region>_mesh.hdf` once, and for each step `<region>_<step>.hdf` with the fields
 /// (field_io/field_file.hpp); `<region>.hdf.series` lists the instants, `results.xdmf` all of all regions. A region is
 /// one piece in the order of the case's mesh, whatever number of ranks writes it, so that partition faces do not show.
-/// Numbers are Float32; coordinates are those of the reference configuration. Each file appears by renaming, the lists
-/// only after what they name, so the series can be opened at any time, also after an interruption.
+/// It is packed and written by one rank, other regions by other ranks at the same time. Numbers are Float32;
+/// coordinates are those of the reference configuration. Each file appears by renaming, the lists only after what they
+/// name, so the series can be opened at any time, also after an interruption.
 class ResultsWriter {
  public:
   /// `mesh` must outlive the writer. Throws InputError on all ranks when the directory cannot be written, a region's

@@ -202,7 +202,7 @@ TEST_F(ResultsWriterTest, SeriesGrowsAndRestartDropsLaterTimes) {
 TEST_F(ResultsWriterTest, FullDiskFailsOnAllRanksAndKeepsTheSeries) {
   auto results = writer();
   write(results, 1, 0.1);
-  // The device accepts no byte, like a full disk. Only rank 0 meets it.
+  // The device accepts no byte, like a full disk. Only one rank meets it.
   const auto bad = fs::path(directory_) / "wall_000002.hdf";
   if (rank_ == 0) fs::create_symlink("/dev/full", bad);
   MPI_Barrier(MPI_COMM_WORLD);
