@@ -29,6 +29,7 @@ void add_prestress(CLI::App& app) {
                     ->check(some_name());
   auto* keep = command->add_flag("--keep-flow", request->keep_flow, "Take the steady flow that is in the folder");
   command->add_flag("--overwrite", request->overwrite, "Replace what is there")->excludes(keep);
+  command->add_flag("-v,--verbose", request->verbose, "On the terminal what else prestress.log holds");
   command->callback([=] {
     request->case_file = *case_file;
     if (given->count() > 0) request->directory = *directory;

@@ -31,6 +31,7 @@ void add_tune(CLI::App& app) {
   auto* given = command->add_option("-o,--output", *directory, "Folder of the results, instead of the case's")
                     ->check(some_name());
   command->add_flag("--overwrite", request->overwrite, "Replace the tuning of another case in that folder");
+  command->add_flag("-v,--verbose", request->verbose, "A line for each time step on the terminal");
   command->callback([=] {
     request->case_file = *case_file;
     if (given->count() > 0) request->directory = *directory;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/artifacts/histories.hpp"
+#include "tunica/base/digits.hpp"
 #include "tunica/config/units.hpp"
 
 namespace tunica::artifacts {
@@ -112,7 +113,10 @@ ordered_json to_json(const Dissipation& d) {
                      {"numerical_J", p.numerical},
                      {"ratio", std::isfinite(p.ratio()) ? ordered_json(p.ratio()) : ordered_json()},
                      {"above_limit", p.above_limit()}});
-  return {{"limit", PartDissipation::limit}, {"from_s", d.from}, {"until_s", d.until}, {"parts", parts}};
+  return {{"limit", PartDissipation::limit},
+          {"from_s", base::without_noise(d.from)},
+          {"until_s", base::without_noise(d.until)},
+          {"parts", parts}};
 }
 
 Dissipation dissipation_from_json(const ordered_json& json) {

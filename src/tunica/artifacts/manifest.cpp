@@ -117,7 +117,7 @@ void Manifest::write(const ManifestProgress& p) {
                   {"ranks", head_.ranks},
                   {"first_step", head_.first_step},
                   {"last_step", p.last_step},
-                  {"time [s]", base::without_noise(p.time)},
+                  {"time_s", base::without_noise(p.time)},
                   {"newton_iterations", p.newton_iterations},
                   {"linear_iterations", p.linear_iterations},
                   {"rejected_steps", p.rejected_steps},
@@ -129,7 +129,7 @@ void Manifest::write(const ManifestProgress& p) {
                     {"preconditioner", p.timings.set_up},
                     {"linear", p.timings.linear},
                     {"mesh_motion", p.timings.mesh}}},
-                  {"peak_memory [MB]", p.peak_memory / 1e6}});
+                  {"peak_memory_MB", p.peak_memory / 1e6}});
   if (p.dissipation) runs.back()["dissipation"] = to_json(*p.dissipation);
   const ordered_json manifest = {
       {"tunica",

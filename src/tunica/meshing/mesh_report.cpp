@@ -235,7 +235,7 @@ nlohmann::json mesh_report(const ReportInput& input) {
     total += seconds;
   }
   report["seconds"]["total"] = total;
-  report["peak_memory_mb"] = input.peak_memory / 1e6;
+  report["peak_memory_MB"] = input.peak_memory / 1e6;
   return report;
 }
 
@@ -283,7 +283,7 @@ std::string report_text(const nlohmann::json& r) {
                       r["wall_one_element_thick_percent"].get<double>());
   for (const auto& [phase, seconds] : r["seconds"].items())
     text += fmt::format("{}: {:.1f} s; ", phase, seconds.get<double>());
-  text += fmt::format("peak memory {:.0f} MB\n", r["peak_memory_mb"].get<double>());
+  text += fmt::format("peak memory {:.0f} MB\n", r["peak_memory_MB"].get<double>());
   return text;
 }
 

@@ -225,6 +225,7 @@ int run_prestress(const StageCall& call) {
   request.program = call.program;
   request.keep_flow = on_all(call.comm, [&] { return call.resume && stages::has_flow(call.folder()); });
   request.overwrite = !request.keep_flow;
+  request.verbose = call.verbose;
   return stages::prestress(call.comm, request, call.screen);
 }
 
@@ -234,6 +235,7 @@ int run_outlets(const StageCall& call) {
   request.overwrite = !call.resume;
   request.program = call.program;
   request.run_case = stages::run_case;
+  request.verbose = call.verbose;
   return stages::tune(call.comm, request, call.screen);
 }
 

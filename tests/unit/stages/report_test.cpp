@@ -54,7 +54,7 @@ std::size_t place(const std::string& page, const std::string& text) {
 TEST(Report, OpensOnWhatWasFoundBesideTargets) {
   const SharedFolder folder(MPI_COMM_SELF);
   folder.write("tuning.json", R"({"tolerance": 0.02, "status": "converged", "cycles": [],
-      "targets": {"systolic [Pa]": 16665, "diastolic [Pa]": 9999}, "target fractions": {"lumen_outlet": 0.5}})");
+      "targets": {"systolic_Pa": 16665, "diastolic_Pa": 9999}, "target_fractions": {"lumen_outlet": 0.5}})");
   folder.write("post.json", R"({"openings": [
       {"name": "lumen_inlet", "inlet": true, "pressure": {"systolic_mmHg": 131.0, "diastolic_mmHg": 75.5}},
       {"name": "lumen_outlet", "inlet": false, "share_of_outflow": 0.495}],

@@ -60,7 +60,7 @@ nlohmann::json fibres_report(const ReportInput& input) {
                            {"elements_without_own_longitudinal_direction", input.undefined},
                            {"lumen_elements_across_tears", input.tear_elements},
                            {"ranks", input.ranks},
-                           {"peak_memory_of_rank_0_mb", input.peak_memory / 1e6}};
+                           {"peak_memory_of_rank_0_MB", input.peak_memory / 1e6}};
   Counts all;
   for (const auto& region : input.data.regions) {
     if (region.kind != mesh::RegionKind::wall) continue;
@@ -103,7 +103,7 @@ std::string report_text(const nlohmann::json& r) {
   for (const auto& [phase, seconds] : r["seconds"].items())
     text += fmt::format("{}: {:.1f} s; ", phase, seconds.get<double>());
   return text + fmt::format("{} ranks, {:.0f} MB on the first\n", r["ranks"].get<int>(),
-                            r["peak_memory_of_rank_0_mb"].get<double>());
+                            r["peak_memory_of_rank_0_MB"].get<double>());
 }
 
 }  // namespace tunica::stages::fibres

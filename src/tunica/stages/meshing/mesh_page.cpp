@@ -270,7 +270,7 @@ std::string summary(const json& r) {
       number(f["lumen_distance_mm"], 2), number(f["lumen_distance_per_edge"], 2), number(f["outer_distance_mm"], 2),
       number(f["outer_distance_per_edge"], 2), lumen["parts"].get<geometry::Index>(),
       lumen["genus"].get<geometry::Index>(), r["tears"].size(), number(r["wall_one_element_thick_percent"], 1),
-      number(r["seconds"]["total"], 0), number(r["peak_memory_mb"], 0));
+      number(r["seconds"]["total"], 0), number(r["peak_memory_MB"], 0));
 }
 
 }  // namespace

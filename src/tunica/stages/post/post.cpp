@@ -155,7 +155,7 @@ void Post::prepare_folder() {
   });
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "post.log", .screen = screen_});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
-  if (!case_.title.empty()) log_->info(case_.title);
+  if (!case_.title.empty()) log_->heading(case_.title);
   for (const auto& line : warnings_) log_->warning(line);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tunica/base/digits.hpp"
 #include "tunica/mesh/boundary.hpp"
 
 namespace tunica::stages::post {
@@ -249,9 +250,9 @@ ordered_json flap(const Findings& f) {
   const auto mean = analysis::course(f.times, f.figures.column(analysis::column::flap_mean)),
              largest = analysis::course(f.times, f.figures.column(analysis::column::flap_largest));
   ordered_json report = {{"region", f.settings.flap},
-                         {"relative_to_s", f.times.front()},
+                         {"relative_to_s", base::without_noise(f.times.front())},
                          {"largest_displacement_mm", largest.largest / unit::mm},
-                         {"time_of_largest_s", largest.time_of_largest},
+                         {"time_of_largest_s", base::without_noise(largest.time_of_largest)},
                          {"largest_mean_displacement_mm", mean.largest / unit::mm},
                          {"mean_displacement_over_the_cycle_mm", mean.mean / unit::mm}};
   mark(report, f);
@@ -261,15 +262,17 @@ ordered_json flap(const Findings& f) {
 }  // namespace
 
 ordered_json report_json(const Findings& f) {
-  ordered_json report = {
-      {"program", {{"version", f.program.version}, {"commit", f.program.commit}}},
-      {"title", f.title},
-      {"case", f.case_file.string()},
-      {"results", f.results.string()},
-      {"window", {{"from_s", f.window.from}, {"until_s", f.window.until}, {"fields", f.times.size()}}},
-      {"peak_s", f.times[f.peak()]},
-      {"left_out", ordered_json::array()},
-      {"warnings", f.warnings}};
+  ordered_json report = {{"program", {{"version", f.program.version}, {"commit", f.program.commit}}},
+                         {"title", f.title},
+                         {"case", f.case_file.string()},
+                         {"results", f.results.string()},
+                         {"window",
+                          {{"from_s", base::without_noise(f.window.from)},
+                           {"until_s", base::without_noise(f.window.until)},
+                           {"fields", f.times.size()}}},
+                         {"peak_s", base::without_noise(f.times[f.peak()])},
+                         {"left_out", ordered_json::array()},
+                         {"warnings", f.warnings}};
   for (const auto& part : f.left_out) report["left_out"].push_back({{"part", part.part}, {"why", part.why}});
   if (f.dissipation) report["numerical_dissipation"] = to_json(*f.dissipation);
   if (!f.openings.empty()) report["openings"] = openings(f);

@@ -12,6 +12,7 @@
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/prestress_file.hpp"
 #include "tunica/artifacts/problem_input.hpp"
+#include "tunica/base/digits.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
 #include "tunica/case/table_ends.hpp"
@@ -22,6 +23,7 @@
 #include "tunica/drawing/plot.hpp"
 #include "tunica/field_io/array_name.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/files/hash.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -174,10 +176,11 @@ PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::
   read();
   folder_ = request.directory.value_or(settings().output);
   prepare_folder();
-  log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "prestress.log", .screen = screen});
+  log_.emplace(comm_,
+               parallel::Log::Targets{.file = folder_ / "prestress.log", .screen = screen, .verbose = request.verbose});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
-  if (!case_.title.empty()) log_->info(case_.title);
-  for (const auto& line : whole_.report) log_->info(line);
+  if (!case_.title.empty()) log_->heading(case_.title);
+  for (const auto& line : whole_.report) log_->detail(line);
   for (const auto& line : whole_.warnings) log_->warning(line);
 }
 
@@ -386,8 +389,17 @@ void PrestressRun::follow(const coupling::PrestressRecord& r) {
   const std::string found = r.failure.empty() ? fmt::format("{:.3e} {} near ({:.4g}, {:.4g}, {:.4g})", displacement,
                                                             unit, place[0], place[1], place[2])
                                               : fmt::format("no equilibrium ({})", r.failure);
-  log_->info(fmt::format("iteration {}: {}; {:.3g} of the update, load {:.3g}, newton {}, linear {}, {:.2f} s",
-                         r.iteration, found, r.relaxation, r.load, r.newton, r.linear, r.seconds));
+  const std::string line =
+      fmt::format("iteration {}: {}; {:.3g} of the update, load {:.3g}, newton {}, linear {}, {:.2f} s", r.iteration,
+                  found, r.relaxation, r.load, r.newton, r.linear, r.seconds);
+  // Nobody knows how many there will be: on a terminal the last one stands in the place of a bar.
+  if (log_->on_terminal()) {
+    log_->detail(line);
+    log_->status(fmt::format("prestress, {}", line.substr(0, line.find('\n')))
+                     .substr(0, static_cast<std::size_t>(log_->columns() - 1)));
+  } else {
+    log_->info(line);
+  }
   parallel::on_root(comm_, [&] {
     history_->append(r.iteration, std::array{displacement, r.relaxation, r.load, static_cast<double>(r.newton),
                                              static_cast<double>(r.linear), r.seconds});
@@ -477,19 +489,19 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
   json["program"] = {{"version", request_.program.version}, {"commit", request_.program.commit}};
   json["case_file"] = request_.case_file.string();
   json["case"] = text_;
-  json["mesh_hash"] = mesh_hash_;
+  json["mesh_hash"] = files::hex(mesh_hash_);
   json["status"] = result.converged ? "completed" : "failed";
   json["converged"] = result.converged;
   if (!result.converged) json["failure"] = result.failure;
   json["method"] = name_of(result.method);
-  if (!result.inverse_failure.empty()) json["no unloaded shape"] = result.inverse_failure;
+  if (!result.inverse_failure.empty()) json["no_unloaded_shape"] = result.inverse_failure;
   json["iterations"] = result.history.size();
-  json["largest displacement [m]"] = result.history.empty() ? 0.0 : result.history.back().displacement;
+  json["largest_displacement_m"] = result.history.empty() ? 0.0 : result.history.back().displacement;
   if (case_.solves_fluid())
-    json["steady flow"] = {{"steps", steady_.step},
-                           {"time [s]", steady_.time},
-                           {"change of velocity in the last step", steady_.velocity_change},
-                           {"change of pressure in the last step", steady_.pressure_change}};
+    json["steady_flow"] = {{"steps", steady_.step},
+                           {"time_s", base::without_noise(steady_.time)},
+                           {"change_of_velocity_in_the_last_step", steady_.velocity_change},
+                           {"change_of_pressure_in_the_last_step", steady_.pressure_change}};
   json["seconds"] = MPI_Wtime() - started_;
   parallel::on_root(comm_, [&] { files::write_atomically(folder_ / report_file, config::json_text(json)); });
 }
@@ -497,7 +509,7 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
 void PrestressRun::find_wall() {
   wall_ = distributed::distribute(wall_part_.data, comm_);
   coupling::Problem problem(wall_, wall_input());
-  for (const auto& line : problem.notes()) log_->info(line);
+  for (const auto& line : problem.notes()) log_->detail(line);
   if (case_.solves_fluid()) {
     problem.set_nodal_forces(forces_beside_pressure());
     write_traction(problem);
@@ -514,6 +526,7 @@ void PrestressRun::find_wall() {
         follow(record);
         if (const int signal = parallel::stop_requested(comm_); signal != 0) throw Stopped{signal};
       });
+  log_->status("");
   plot_history(result.history);
   write_report(result);
   if (!result.converged)
@@ -543,7 +556,7 @@ void PrestressRun::record_end(const char* status, const std::string& message) {
   const ordered_json json = {{"program", {{"version", request_.program.version}, {"commit", request_.program.commit}}},
                              {"case_file", request_.case_file.string()},
                              {"case", text_},
-                             {"mesh_hash", mesh_hash_},
+                             {"mesh_hash", files::hex(mesh_hash_)},
                              {"status", status},
                              {"converged", false},
                              {"failure", message},

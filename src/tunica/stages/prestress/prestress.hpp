@@ -23,6 +23,7 @@ struct PrestressRequest {
   /// state is damaged, from the state before or from the start, with a warning.
   bool keep_flow = false;
   artifacts::ProgramVersion program;
+  bool verbose = false;  ///< the screen gets what prestress.log gets
 };
 
 /// Looks at a case on these faces and regions of the wall before anything is computed; `c.boundary` has no patterns any

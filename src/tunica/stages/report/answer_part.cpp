@@ -85,7 +85,7 @@ void add_pressures(const Results& r, Answers& answers) {
   for (const auto& o : at(r.post, "openings")) {
     if (!o.value("inlet", false)) continue;
     for (const char* when : {"systolic", "diastolic", "mean"}) {
-      const json target = at(at(r.tuning, "targets"), fmt::format("{} [Pa]", when));
+      const json target = at(at(r.tuning, "targets"), fmt::format("{}_Pa", when));
       Beside beside{0, 0, ""};
       if (target.is_number()) {
         const double asked = target.get<double>() / mmHg;
@@ -105,7 +105,7 @@ void add_pressures(const Results& r, Answers& answers) {
 void add_shares(const Results& r, Answers& answers) {
   const double tolerance = r.tuning.is_object() ? r.tuning.value("tolerance", 0.02) : 0;
   for (const auto& o : at(r.post, "openings")) {
-    const json share = at(o, "share_of_outflow"), target = at(at(r.tuning, "target fractions"), o.value("name", ""));
+    const json share = at(o, "share_of_outflow"), target = at(at(r.tuning, "target_fractions"), o.value("name", ""));
     if (!share.is_number()) continue;
     Beside beside{0, 0, ""};
     if (target.is_number()) {
@@ -246,7 +246,7 @@ void add_targets(const Results& r, std::vector<viewer::Plot>& plots) {
   if (plots.empty() || !plots[0].in_time || plots[0].curves.empty() || plots[0].curves[0].x.empty()) return;
   const std::vector<double> ends = {plots[0].curves[0].x.front(), plots[0].curves[0].x.back()};
   for (const char* when : {"systolic", "diastolic"})
-    if (const json target = at(at(r.tuning, "targets"), fmt::format("{} [Pa]", when)); target.is_number()) {
+    if (const json target = at(at(r.tuning, "targets"), fmt::format("{}_Pa", when)); target.is_number()) {
       const double asked = target.get<double>() / mmHg;
       plots[0].curves.push_back({fmt::format("target at the inlet, {}", when), ends, {asked, asked}, 0, "target"});
     }

@@ -103,7 +103,7 @@ std::string runs(const json& manifest) {
     rows.push_back({figure(run.value("status", json())), figure(run.value("last_step", json())),
                     figure(run.value("rejected_steps", json())), figure(run.value("ranks", json())),
                     figure(run.contains("seconds") ? run["seconds"].value("total", json()) : json()),
-                    figure(run.value("peak_memory [MB]", json()), 3)});
+                    figure(run.value("peak_memory_MB", json()), 3)});
   const json& last = manifest.at("runs").back();
   const std::string dissipation = last.contains("dissipation") ? dissipation_table(last["dissipation"]) : "";
   return drawing::page::table({"run", "to step", "steps rejected", "ranks", "seconds", "memory [MB]"}, rows) +

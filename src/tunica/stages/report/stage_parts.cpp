@@ -138,13 +138,13 @@ std::string prestress_part(const Results& r) {
       {"converged", figure(at(r.prestress, "converged"))},
       {"iterations of the fixed point", figure(at(r.prestress, "iterations"))},
       {"largest displacement under the load [mm]",
-       figure(1e3 * r.prestress.value("largest displacement [m]", std::nan("")), 3)}};
-  if (const json flow = at(r.prestress, "steady flow"); flow.is_object()) {
+       figure(1e3 * r.prestress.value("largest_displacement_m", std::nan("")), 3)}};
+  if (const json flow = at(r.prestress, "steady_flow"); flow.is_object()) {
     rows.push_back({"steps to the steady flow", figure(at(flow, "steps"))});
     rows.push_back({"change of velocity in its last step [%]",
-                    figure(100 * flow.value("change of velocity in the last step", std::nan("")), 3)});
+                    figure(100 * flow.value("change_of_velocity_in_the_last_step", std::nan("")), 3)});
     rows.push_back({"change of pressure in its last step [%]",
-                    figure(100 * flow.value("change of pressure in the last step", std::nan("")), 3)});
+                    figure(100 * flow.value("change_of_pressure_in_the_last_step", std::nan("")), 3)});
   }
   if (r.prestress.contains("failure")) rows.push_back({"failure", figure(at(r.prestress, "failure"))});
   return text + drawing::page::table({"", ""}, rows) +
@@ -161,7 +161,7 @@ std::string outlets_part(const Results& r) {
   std::vector<std::string> head = {"pressure at the inlet [mmHg]", "target"};
   for (std::size_t k = 0; k < cycles.size(); ++k) head.push_back(fmt::format("cycle {} in 3D", k + 1));
   for (const char* value : {"systolic", "diastolic", "mean"}) {
-    const std::string key = fmt::format("{} [Pa]", value);
+    const std::string key = fmt::format("{}_Pa", value);
     std::vector<std::string> cells = {value, fmt::format("{:.1f}", targets.value(key, std::nan("")) / mmHg)};
     for (const auto& cycle : cycles)
       cells.push_back(fmt::format("{:.1f}", at(cycle, "measured").value(key, std::nan("")) / mmHg));
@@ -169,7 +169,7 @@ std::string outlets_part(const Results& r) {
   }
   text += drawing::page::table(head, rows);
   rows.clear();
-  const json fractions = at(r.tuning, "target fractions");
+  const json fractions = at(r.tuning, "target_fractions");
   for (const auto& [face, share] : fractions.items())
     rows.push_back({drawing::page::escaped(face), figure(100 * share.get<double>(), 3),
                     cycles.empty() ? "–" : figure(100 * cycles.back()["fractions"].value(face, std::nan("")), 3)});

@@ -299,6 +299,7 @@ bool Tuning::compute(const std::string& name, const Plan& plan, int steps) {
   run.case_file = request_.case_file;
   run.directory = folder() / name;
   run.program = request_.program;
+  run.verbose = request_.verbose;
   run.resume = command("");
   Start start = parallel::on_root(comm_, [&] { return start_of_run(folder() / name, input); });
   parallel::broadcast(comm_, start);

@@ -22,7 +22,8 @@ struct TuneRequest {
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results of another case in the folder may be replaced
   artifacts::ProgramVersion program;
-  RunCase run_case;  ///< computes the probe and the cycles
+  RunCase run_case;      ///< computes the probe and the cycles
+  bool verbose = false;  ///< as RunRequest::verbose, for these
 };
 
 /// What a tuning goes out from.

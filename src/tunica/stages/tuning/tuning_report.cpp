@@ -24,25 +24,25 @@ namespace {
 constexpr const char* report_file = "tuning.json";
 
 ordered_json json_of(const zerod::Pressures& p) {
-  return {{"systolic [Pa]", p.systolic}, {"diastolic [Pa]", p.diastolic}, {"mean [Pa]", p.mean}};
+  return {{"systolic_Pa", p.systolic}, {"diastolic_Pa", p.diastolic}, {"mean_Pa", p.mean}};
 }
 
 ordered_json json_of(const zerod::Vessel& vessel, const case_file::TuningCase& outlets) {
-  ordered_json json{{"compliance [m^3/Pa]", vessel.compliance}};
+  ordered_json json{{"compliance_m3_Pa", vessel.compliance}};
   for (std::size_t i = 0; i < vessel.paths.size(); ++i)
-    json["paths"][outlets.fractions[i].first] = {{"resistance [Pa s/m^3]", vessel.paths[i].resistance},
-                                                 {"inertance [Pa s^2/m^3]", vessel.paths[i].inertance}};
+    json["paths"][outlets.fractions[i].first] = {{"resistance_Pa_s_m3", vessel.paths[i].resistance},
+                                                 {"inertance_Pa_s2_m3", vessel.paths[i].inertance}};
   return json;
 }
 
 ordered_json json_of(const TuningCycle& cycle, const case_file::TuningCase& outlets) {
-  ordered_json json{{"total resistance [Pa s/m^3]", cycle.totals.resistance},
-                    {"total compliance [m^3/Pa]", cycle.totals.compliance},
+  ordered_json json{{"total_resistance_Pa_s_m3", cycle.totals.resistance},
+                    {"total_compliance_m3_Pa", cycle.totals.compliance},
                     {"measured", json_of(cycle.measured())},
-                    {"0D from the same start", json_of(cycle.foreseen_first())},
-                    {"0D periodic", json_of(zerod::pressures(cycle.periodic))},
+                    {"0D_from_the_same_start", json_of(cycle.foreseen_first())},
+                    {"0D_periodic", json_of(zerod::pressures(cycle.periodic))},
                     {"foreseen", json_of(cycle.foreseen())},
-                    {"relative miss", cycle.miss(outlets)},
+                    {"relative_miss", cycle.miss(outlets)},
                     {"vessel", json_of(cycle.vessel, outlets)}};
   for (std::size_t i = 0; i < cycle.fractions.size(); ++i)
     json["fractions"][outlets.fractions[i].first] = cycle.fractions[i];
@@ -53,10 +53,10 @@ ordered_json outlets_json(const TuningCycle& cycle, const case_file::TuningCase&
   ordered_json json;
   const auto shared = zerod::share_out(outlets.flow_split(), cycle.totals);
   for (std::size_t i = 0; i < shared.size(); ++i)
-    json[outlets.fractions[i].first] = {{"proximal [Pa s/m^3]", shared[i].proximal},
-                                        {"capacitance [m^3/Pa]", shared[i].capacitance},
-                                        {"distal [Pa s/m^3]", shared[i].distal},
-                                        {"initial pressure [Pa]", cycle.periodic.end.stored[i]}};
+    json[outlets.fractions[i].first] = {{"proximal_Pa_s_m3", shared[i].proximal},
+                                        {"capacitance_m3_Pa", shared[i].capacitance},
+                                        {"distal_Pa_s_m3", shared[i].distal},
+                                        {"initial_pressure_Pa", cycle.periodic.end.stored[i]}};
   return json;
 }
 
@@ -67,11 +67,11 @@ void write_json(const TuningReport& report, const case_file::TuningCase& outlets
   json["status"] = report.status;
   json["targets"] = json_of(zerod::Pressures{outlets.systolic, outlets.diastolic, outlets.mean()});
   json["tolerance"] = outlets.tolerance;
-  for (const auto& [face, share] : outlets.fractions) json["target fractions"][face] = share;
+  for (const auto& [face, share] : outlets.fractions) json["target_fractions"][face] = share;
   if (report.probe) json["probe"] = json_of(*report.probe, outlets);
   json["cycles"] = ordered_json::array();
   for (const auto& cycle : report.cycles) json["cycles"].push_back(json_of(cycle, outlets));
-  if (!report.cycles.empty()) json["outlets of the last cycle"] = outlets_json(report.cycles.back(), outlets);
+  if (!report.cycles.empty()) json["outlets_of_the_last_cycle"] = outlets_json(report.cycles.back(), outlets);
   json["seconds"] = report.seconds;
   files::write_atomically(report.folder / report_file, config::json_text(json));
 }
