@@ -13,6 +13,7 @@
 #include "tunica/geometry/triangle_tree.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
+#include "tunica/stages/beat_fibres.hpp"
 #include "tunica/stages/vessel_plane.hpp"
 #include "tunica/viewer/surface.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 using mesh::MeshData;
 using mesh::RegionKind;
 using nlohmann::json;
+using Names = std::vector<std::string>;
 using viewer::PointSource;
 using viewer::Quantity;
 using viewer::Skeleton;
@@ -324,8 +326,12 @@ Window window_of(const std::vector<double>& times, const json& post) {
   return {static_cast<std::size_t>(first - times.begin()), static_cast<std::size_t>(last - first)};
 }
 
-MeshData mesh_of(const case_file::Case& c) {
-  MeshData data = artifacts::load_meshes(c.meshes, {}).data;
+/// With the lines of the fibres, which are of the elements as they were meshed.
+MeshData mesh_of(const case_file::Case& c, viewer::Beat& beat) {
+  const bool has_frame = c.wall && c.wall->fibre_frame;
+  MeshData data = artifacts::load_meshes(c.meshes, has_frame ? wall::frame_arrays(*c.wall->fibre_frame) : Names{}).data;
+  if (has_frame) beat.lines = fibre_lines(*c.wall, data);
+  data.fields.clear();
   if (c.elements != case_file::Elements::quadratic) return data;
   mesh::add_edge_nodes(data);
   return mesh::subdivided(data);
@@ -367,8 +373,8 @@ void read_frames(analysis::FieldSeries& series, const json& post, Collector& col
 viewer::Beat collect_beat(const BeatSource& source, const files::Say& say) {
   say("view: mesh and fields");
   const auto c = case_file::read_case(source.case_file).value;
-  const MeshData data = mesh_of(c);
   viewer::Beat beat;
+  const MeshData data = mesh_of(c, beat);
   beat.title = c.title;
   const auto run = case_file::describe(c);
   analysis::FieldSeries series(run, data, source.results);

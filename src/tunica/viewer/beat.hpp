@@ -34,6 +34,14 @@ struct Body {
   std::vector<Quantity> quantities;                     ///< of one name "displacement" [mm] for all points: motion
 };
 
+/// Short lines on the surface, such as directions of fibres. They move with the point that is nearest to them.
+struct Lines {
+  std::string name;                              ///< those of one name are shown or hidden together
+  std::string kind, region;                      ///< of the group that they lie on
+  double length = 0;                             ///< [m]
+  std::vector<Vec3<double>> places, directions;  ///< middles, reference [m]; unit vectors
+};
+
 /// A name at a place.
 struct Label {
   std::string text, kind;  ///< "opening", "tear" or "lumen"
@@ -65,6 +73,7 @@ struct Beat {
   std::vector<double> times;  ///< of the frames [s]
   std::size_t start = 0;      ///< frame that is shown first
   std::vector<Body> bodies;
+  std::vector<Lines> lines;  ///< on the first body
   std::vector<Label> labels;
   std::vector<Section> sections;
   Vec3<double> view{{0, -1, 0}}, up{{0, 0, 1}};  ///< direction towards the camera, and up;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "tunica/base/error.hpp"
 #include "tunica/drawing/page.hpp"
@@ -141,6 +142,51 @@ void corners_of(const std::vector<Body>& bodies, Vec3<double>& low, Vec3<double>
       for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], x[c]), high[c] = std::max(high[c], x[c]);
 }
 
+/// Number of the nearest point for each place: points in the order of x, looked through both ways until x alone is
+/// farther than what was found.
+std::vector<std::int64_t> nearest_points(const std::vector<Vec3<double>>& points,
+                                         const std::vector<Vec3<double>>& places) {
+  std::vector<std::int64_t> order(points.size()), nearest;
+  std::iota(order.begin(), order.end(), 0);
+  const auto x = [&](std::int64_t i) { return points[static_cast<std::size_t>(i)][0]; };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return x(a) < x(b); });
+  for (const auto& place : places) {
+    const auto from =
+        std::lower_bound(order.begin(), order.end(), place[0], [&](auto i, double v) { return x(i) < v; });
+    std::int64_t best = -1;
+    double distance = 1e30;
+    const auto look = [&](std::int64_t i) {
+      if (std::abs(x(i) - place[0]) >= distance) return false;
+      if (const double d = norm(points[static_cast<std::size_t>(i)] - place); d < distance) distance = d, best = i;
+      return true;
+    };
+    for (auto i = from; i != order.end() && look(*i); ++i) {
+    }
+    for (auto i = from; i != order.begin() && look(*(i - 1)); --i) {
+    }
+    nearest.push_back(best);
+  }
+  return nearest;
+}
+
+constexpr double direction_step = 1.0 / 127;
+
+json packed_lines(Store& store, const Lines& lines, const Body& body, double step, const Vec3<double>& low) {
+  std::vector<std::int64_t> places, directions;
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < lines.places.size(); ++i) {
+      places.push_back(std::lround((lines.places[i][c] - low[c]) / step));
+      directions.push_back(std::lround(lines.directions[i][c] / direction_step));
+    }
+  return {{"name", lines.name},
+          {"kind", lines.kind},
+          {"region", lines.region},
+          {"length", lines.length / mm},
+          {"places", store.add(places, 2)},
+          {"directions", store.add(directions, 1)},
+          {"points", store.add(nearest_points(body.points, lines.places), 4)}};
+}
+
 json head_of(const Beat& beat) {
   json labels = json::array(), sections = json::array();
   for (const auto& l : beat.labels)
@@ -187,6 +233,9 @@ PackedBeat pack(Beat beat, const PackOptions& options) {
     head["bodies"].push_back(std::move(shape));
     packed.simplifications.push_back(simpler);
   }
+  head["lines"] = json::array();
+  for (const auto& lines : beat.lines)
+    head["lines"].push_back(packed_lines(store, lines, beat.bodies.front(), packed.place_step, low));
   packed.head = head.dump();
   packed.data = store.deflated();
   return packed;

@@ -30,6 +30,12 @@ Beat small_beat(const std::string& title) {
   }
   body.quantities = {pressure, displacement};
   beat.bodies = {body};
+  beat.lines = {{"family 1",
+                 "inner",
+                 "wall",
+                 0.001,
+                 {{{0.009, 0.001, 0}}, {{0.001, 0.018, 0}}},
+                 {{{1, 0, 0}}, {{0, -0.6, 0.8}}}}};
   return beat;
 }
 
@@ -92,6 +98,15 @@ TEST(Pack, IsReadAgainToItsDeviation) {
       EXPECT_NEAR(value, beat.bodies[0].quantities[0].frames[t][static_cast<std::size_t>(order_of(i))],
                   0.001 * 80 + 1e-3);
     }
+  const auto& lines = head["lines"][0];
+  EXPECT_EQ(lines["region"], "wall");
+  const auto middles = unpacked(bytes, lines["places"], false), along = unpacked(bytes, lines["directions"], true),
+             points = unpacked(bytes, lines["points"], false);
+  EXPECT_NEAR(step * middles[0], 9, step);  // x of the first line [mm]
+  EXPECT_NEAR(step * middles[3], 18, step);
+  EXPECT_NEAR(along[3] / 127.0, -0.6, 0.005);
+  EXPECT_EQ(order_of(static_cast<std::size_t>(points[0])), 1) << "the point that is nearest";
+  EXPECT_EQ(order_of(static_cast<std::size_t>(points[1])), 2);
   EXPECT_EQ(packed.quantities[0].modes, 1U);
   EXPECT_LE(packed.quantities[0].compression.most, 0.001);
 }

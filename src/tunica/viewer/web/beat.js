@@ -94,6 +94,20 @@ const tunica = {};
     }
   }
 
+  /** Short lines on the first body: middles [mm] and directions, component by component in the file. */
+  function readLines(bytes, head, beat) {
+    const whole = unpack(bytes, head.places), along = unpackSigned(bytes, head.directions), n = whole.length / 3;
+    const lines = { ...head, count: n, points: unpack(bytes, head.points), middles: new Float32Array(3 * n), along: new Float32Array(3 * n) };
+    for (let i = 0; i < n; ++i) {
+      const d = [0, 1, 2].map(c => along[c * n + i]), size = Math.hypot(...d) || 1;
+      for (let c = 0; c < 3; ++c) {
+        lines.middles[3 * i + c] = beat.origin[c] + beat.step * whole[c * n + i];
+        lines.along[3 * i + c] = d[c] / size;
+      }
+    }
+    return lines;
+  }
+
   /** Throws where the browser cannot inflate or the data are damaged. */
   tunica.readBeat = async () => {
     const head = JSON.parse(byId('beat-head').textContent);
@@ -102,6 +116,7 @@ const tunica = {};
     const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
     const beat = { ...head, frames: head.times.length };
     beat.bodies = head.bodies.map(b => new Body(bytes, b, head));
+    beat.lines = (head.lines || []).map(l => readLines(bytes, l, head));
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (const body of beat.bodies)
       for (let i = 0; i < body.reference.length; ++i) {
@@ -123,6 +138,9 @@ const tunica = {};
     cividis: [[0, 34, 78], [18, 53, 112], [59, 73, 108], [87, 93, 109], [112, 113, 115], [138, 134, 120], [165, 156, 116], [195, 179, 105], [225, 204, 85], [254, 232, 56]],
     diverging: [[59, 76, 192], [104, 138, 239], [153, 186, 255], [201, 216, 240], [221, 221, 221], [247, 197, 174], [246, 146, 116], [222, 86, 72], [180, 4, 38]],
   };
+
+  /** Of things that have no order, such as regions (Okabe & Ito 2008, without black); after seven they come again. */
+  tunica.categories = [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [204, 121, 167], [0, 114, 178], [213, 94, 0]];
 
   /** Colour (0 to 255) of a share of the range. */
   tunica.colour = (map, share) => {

@@ -18,7 +18,7 @@
   }
   const view = byId('view');
   const kinds = new Set(beat.bodies.flatMap(b => b.groups.map(g => g.kind)));
-  const state = { quantity: '', opacity: { outer: 1, inner: 1, opening: 1 }, hidden: new Set(), warp: 1, range: [0, 1], plane: null, sections: () => false };
+  const state = { quantity: '', opacity: { outer: 1, inner: 1, opening: 1 }, hidden: new Set(), warp: 1, range: [0, 1], plane: null, sections: () => false, families: new Set(), regions: null };
   const clock = { at: 0, playing: false };
   let dirty = true, probed = null, last = 0;
 
@@ -38,6 +38,11 @@
     if (list.children.length) byId('quantity').append(list);
   }
 
+  // Regions of the wall are colours of their own, not values.
+  const regions = [...new Set(beat.bodies.flatMap(b => b.groups).filter(g => g.kind === 'outer' || g.kind === 'inner').map(g => g.name))];
+  const byRegion = 'regions of the wall', colours = new Map(regions.map((name, k) => [name, tunica.categories[k % tunica.categories.length]]));
+  if (drawn === 'WebGL' && regions.length > 1) byId('quantity').append(new Option(byRegion, byRegion));
+
   const isSigned = q => q.components === 1 && q.range[0] < 0 && q.range[1] > 0 && -q.range[0] > 0.1 * q.range[1];
 
   function rangeOf(q) {
@@ -50,9 +55,18 @@
 
   /** A quantity of the blood alone is seen through the outside of the wall, one of sections through everything. */
   function choose(name) {
-    const q = quantities.get(name);
     state.quantity = name;
     byId('quantity').value = name;
+    state.regions = name === byRegion ? colours : null;
+    for (const id of ['low', 'high', 'map']) byId(id).disabled = name === byRegion;
+    if (name === byRegion) {
+      for (const kind of ['outer', 'inner', 'opening']) setOpacity(kind, 1);
+      byId('all-sections').checked = false;
+      cut();
+      refresh();
+      return;
+    }
+    const q = quantities.get(name);
     state.range = rangeOf(q);
     byId('map').value = isSigned(q) ? 'diverging' : 'viridis';
     byId('low').value = +state.range[0].toPrecision(4);
@@ -90,7 +104,22 @@
     dirty = true;
   }
 
+  function legendOfRegions() {
+    byId('legend-title').textContent = byRegion;
+    byId('legend').title = '';
+    const ticks = byId('ticks');
+    ticks.textContent = '';
+    for (const [name, colour] of colours) {
+      const entry = document.createElement('p'), swatch = document.createElement('i');
+      swatch.style.background = `rgb(${colour})`;
+      entry.append(swatch, name.replaceAll('_', ' '));
+      ticks.append(entry);
+    }
+  }
+
   function legend() {
+    byId('legend').classList.toggle('categories', !!state.regions);
+    if (state.regions) return legendOfRegions();
     const q = quantities.get(state.quantity), [low, high] = state.range, ramp = byId('ramp'), g = ramp.getContext('2d');
     byId('legend-title').textContent = q.unit ? `${state.quantity} [${q.unit}]` : state.quantity;
     for (let i = 0; i < 256; ++i) { g.fillStyle = `rgb(${tunica.colour(byId('map').value, i / 255)})`; g.fillRect(0, 255 - i, 1, 1); }
@@ -232,7 +261,12 @@
     label.append(name, slider);
     byId('shown').append(label);
   }
-  const regions = [...new Set(beat.bodies.flatMap(b => b.groups).filter(g => g.kind === 'outer' || g.kind === 'inner').map(g => g.name))];
+  for (const name of scene.families || []) {
+    const label = document.createElement('label'), box = document.createElement('input');
+    Object.assign(box, { type: 'checkbox', id: `fibres-${name.replace(' ', '-')}`, onchange: () => { state.families[box.checked ? 'add' : 'delete'](name); scene.setLook(state); dirty = true; } });
+    label.append(box, ` fibres, ${name}`);
+    byId('shown').append(label);
+  }
   byId('regions-set').hidden = regions.length < 2;
   for (const name of regions) {
     const label = document.createElement('label'), box = document.createElement('input');

@@ -8,15 +8,22 @@
       gl_Position = projectionMatrix * modelViewMatrix * vec4(position + warp * d, 1.0); }`;
   // What lies beyond the plane of the cut, in the reference, is left out; colours outside the range are those of its ends.
   const fragmentShader = `
-    uniform vec2 range; uniform sampler2D map; uniform vec4 plane; uniform float opacity, coloured, cut;
+    uniform vec2 range; uniform sampler2D map; uniform vec4 plane; uniform float opacity, coloured, cut; uniform vec3 plain;
     varying float v_s; varying vec3 v_n; varying vec3 v_x;
     void main() {
       if (cut > 0.5 && dot(v_x, plane.xyz) > plane.w) discard;
       vec3 n = normalize(v_n); if (!gl_FrontFacing) n = -n;
       float light = 0.38 + 0.52 * max(0.0, dot(n, normalize(vec3(0.3, 0.4, 1.0)))) + 0.16 * abs(n.z);
       vec3 c = coloured > 0.5 ? texture2D(map, vec2(clamp((v_s - range.x) / (range.y - range.x), 0.0, 1.0), 0.5)).rgb
-                              : vec3(0.74, 0.72, 0.70);
+                              : plain;
       gl_FragColor = vec4(c * (gl_FrontFacing ? min(light, 1.06) : 0.82 * light), opacity); }`;
+  const lineVertexShader = `
+    attribute vec3 d; uniform float warp; varying vec3 v_x;
+    void main() { v_x = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position + warp * d, 1.0); }`;
+  const lineFragmentShader = `
+    uniform vec4 plane; uniform vec3 plain; uniform float cut; varying vec3 v_x;
+    void main() { if (cut > 0.5 && dot(v_x, plane.xyz) > plane.w) discard; gl_FragColor = vec4(plain, 1.0); }`;
+  const grey = [0.74, 0.72, 0.70], lineColours = [[0.05, 0.05, 0.05], [0.70, 0.05, 0.10], [0.0, 0.25, 0.6], [0.45, 0.2, 0.55]];
   const has = (of, kind) => of === 'inside' ? kind === 'inner' : of === 'wall' ? ['outer', 'inner', 'end', 'wall section'].includes(kind)
     : ['inner', 'opening', 'section'].includes(kind);
 
@@ -33,6 +40,8 @@
       this.shared = { warp: { value: 1 }, range: { value: new THREE.Vector2(0, 1) }, map: { value: this.map },
         plane: { value: new THREE.Vector4(0, 0, 1, 0) } };
       this.meshes = beat.bodies.flatMap(body => this.meshesOf(body));
+      this.families = [...new Set(beat.lines.map(l => l.name))];
+      this.lines = beat.lines.map(l => this.linesOf(l));
       this.marker = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006 * beat.size, 16, 12),
         new THREE.MeshBasicMaterial({ color: 0xd0021b, depthTest: false }));
       this.marker.renderOrder = 10;
@@ -56,7 +65,7 @@
         for (const name of ['position', 'normal', 'd', 's']) part.setAttribute(name, whole.attributes[name]);
         part.setIndex(whole.index);
         part.setDrawRange(group.first, group.count);
-        const uniforms = { ...this.shared, opacity: { value: 1 }, coloured: { value: 0 }, cut: { value: 1 } };
+        const uniforms = { ...this.shared, opacity: { value: 1 }, coloured: { value: 0 }, cut: { value: 1 }, plain: { value: new THREE.Vector3(...grey) } };
         const material = new THREE.ShaderMaterial({ uniforms, vertexShader, fragmentShader, side: THREE.DoubleSide });
         const mesh = new THREE.Mesh(part, material);
         mesh.frustumCulled = false;
@@ -64,6 +73,37 @@
         this.scene.add(mesh);
         return mesh;
       });
+    }
+
+    /** Two ends for each line, which move as the point that it lies at. */
+    linesOf(lines) {
+      const ends = new Float32Array(6 * lines.count), half = 0.5 * lines.length;
+      for (let i = 0; i < lines.count; ++i)
+        for (let c = 0; c < 3; ++c)
+          for (const e of [0, 1]) ends[6 * i + 3 * e + c] = lines.middles[3 * i + c] + (e ? half : -half) * lines.along[3 * i + c];
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute('position', new THREE.BufferAttribute(ends, 3));
+      geometry.setAttribute('d', new THREE.BufferAttribute(new Float32Array(6 * lines.count), 3));
+      const plain = new THREE.Vector3(...lineColours[this.families.indexOf(lines.name) % lineColours.length]);
+      const uniforms = { warp: this.shared.warp, plane: this.shared.plane, plain: { value: plain }, cut: { value: 0 } };
+      const material = new THREE.ShaderMaterial({ uniforms, vertexShader: lineVertexShader, fragmentShader: lineFragmentShader });
+      const drawn = new THREE.LineSegments(geometry, material);
+      drawn.frustumCulled = drawn.visible = false;
+      drawn.renderOrder = 3;
+      drawn.userData = lines;
+      this.scene.add(drawn);
+      return drawn;
+    }
+
+    moveLines() {
+      const d = this.beat.bodies[0].displacement;
+      for (const drawn of this.lines) {
+        if (!drawn.visible) continue;
+        const moved = drawn.geometry.attributes.d, points = drawn.userData.points;
+        for (let i = 0; i < points.length; ++i)
+          for (let c = 0; c < 3; ++c) moved.array[6 * i + c] = moved.array[6 * i + 3 + c] = d[3 * points[i] + c];
+        moved.needsUpdate = true;
+      }
     }
 
     setMap(name) {
@@ -87,9 +127,10 @@
             body.geometry.attributes.s.needsUpdate = true;
           }
       }
+      this.moveLines();
     }
 
-    /** `state`: quantity, opacity by kind, hidden regions, section, plane, warp, range. */
+    /** `state`: quantity, opacity by kind, hidden regions, section, plane, warp, range, families of lines, colours of regions. */
     setLook(state) {
       this.shared.range.value.set(...state.range);
       this.shared.warp.value = state.warp;
@@ -100,6 +141,8 @@
         const q = body.quantities.find(one => one.name === state.quantity && has(one.of, group.kind));
         const opacity = section ? 1 : group.kind === 'end' ? state.opacity.outer : state.opacity[group.kind];
         u.coloured.value = q ? 1 : 0;
+        const category = state.regions && ['outer', 'inner'].includes(group.kind) ? state.regions.get(group.name) : null;
+        u.plain.value.set(...(category ? category.map(c => c / 255) : grey));
         u.opacity.value = opacity;
         u.cut.value = state.plane && !section ? 1 : 0;
         mesh.visible = section ? state.sections(group) : opacity > 0.01 && !state.hidden.has(group.name);
@@ -111,6 +154,12 @@
         mesh.material.polygonOffsetFactor = q ? 1 : 2;
         mesh.material.polygonOffsetUnits = 1;
       }
+      for (const drawn of this.lines) {
+        const { name, kind, region } = drawn.userData;
+        drawn.visible = state.families.has(name) && state.opacity[kind] > 0.3 && !state.hidden.has(region);
+        drawn.material.uniforms.cut.value = state.plane ? 1 : 0;
+      }
+      this.moveLines();
     }
 
     // --- the camera: parallel projection, turned by a quaternion ---
