@@ -15,6 +15,7 @@
 namespace tunica::artifacts {
 
 namespace fs = std::filesystem;
+using case_file::Elements;
 using nlohmann::ordered_json;
 
 namespace {
@@ -55,7 +56,7 @@ std::vector<std::string> Dissipation::parts_above_limit() const {
   return names;
 }
 
-std::optional<Dissipation> read_dissipation(const fs::path& folder, double from, double until) {
+std::optional<Dissipation> read_dissipation(const fs::path& folder, double from, double until, Elements elements) {
   const fs::path by_part = folder / "dissipation.csv";
   const auto powers = files::read_csv(fs::exists(by_part) ? by_part : folder / "balance.csv", history_remedy,
                                       files::Gaps::allowed),
@@ -67,7 +68,7 @@ std::optional<Dissipation> read_dissipation(const fs::path& folder, double from,
   std::map<double, std::size_t> line_of;
   const auto& numbers = powers.column("step");
   for (std::size_t k = 0; k < numbers.size(); ++k) line_of[numbers[k]] = k;
-  Dissipation d;
+  Dissipation d{0, 0, {}, elements};
   for (const auto& c : columns) d.parts.push_back({c.part});
   bool any = false;
   for (std::size_t k = 0; k < ends.size(); ++k) {
@@ -100,9 +101,9 @@ std::optional<std::string> warning_of(const Dissipation& d) {
     if (p.above_limit()) places += fmt::format("{}{:.3g} times in: {}", places.empty() ? "" : ", ", p.ratio(), p.part);
   return fmt::format(
       "the scheme takes more than {:g} times what friction takes from the flow ({}): flow, pressure and wall shear "
-      "there depend on the mesh; refine it there (more elements across the lumen and the tears); linear elements "
-      "gain far more from `elements: quadratic`",
-      PartDissipation::limit, places);
+      "there depend on the mesh; refine it there (more elements across the lumen and the tears){}",
+      PartDissipation::limit, places,
+      d.elements == Elements::quadratic ? "" : "; linear elements gain far more from `elements: quadratic`");
 }
 
 ordered_json to_json(const Dissipation& d) {
@@ -116,11 +117,13 @@ ordered_json to_json(const Dissipation& d) {
   return {{"limit", PartDissipation::limit},
           {"from_s", base::without_noise(d.from)},
           {"until_s", base::without_noise(d.until)},
+          {"elements", d.elements == Elements::quadratic ? "quadratic" : "linear"},
           {"parts", parts}};
 }
 
 Dissipation dissipation_from_json(const ordered_json& json) {
-  Dissipation d{json.at("from_s"), json.at("until_s"), {}};
+  const auto elements = json.value("elements", "linear") == "quadratic" ? Elements::quadratic : Elements::linear;
+  Dissipation d{json.at("from_s"), json.at("until_s"), {}, elements};
   for (const auto& p : json.at("parts")) d.parts.push_back({p.at("part"), p.at("viscous_J"), p.at("numerical_J")});
   return d;
 }

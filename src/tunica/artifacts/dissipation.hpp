@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tunica/case/case.hpp"
+
 namespace tunica::artifacts {
 
 struct PartDissipation {
@@ -25,6 +27,7 @@ struct PartDissipation {
 struct Dissipation {
   double from = 0, until = 0;  ///< of the steps that the histories hold [s]
   std::vector<PartDissipation> parts;
+  case_file::Elements elements = case_file::Elements::quadratic;  ///< of the run: the remedy depends on them
 
   bool above_limit() const;
   /// Names of the parts above the limit.
@@ -34,14 +37,15 @@ struct Dissipation {
 /// Integrals over the steps that end after `from` and not after `until` [s]: of dissipation.csv, by part, or of
 /// balance.csv, where the only part is "lumen", in a folder without it. None where the histories hold no such step.
 /// Throws InputError when a history cannot be read. Not collective.
-std::optional<Dissipation> read_dissipation(const std::filesystem::path& folder, double from, double until);
+std::optional<Dissipation> read_dissipation(const std::filesystem::path& folder, double from, double until,
+                                            case_file::Elements elements);
 
 /// For the log: the ratios of all parts, and a warning for those above the limit; none where all keep it.
 std::string describe(const Dissipation& dissipation);
 std::optional<std::string> warning_of(const Dissipation& dissipation);
 
-/// {limit, from_s, until_s, parts: [{part, viscous_J, numerical_J, ratio, above_limit}]}, and back. A ratio that is not
-/// finite is null. Throws std::exception for another layout.
+/// {limit, from_s, until_s, elements, parts: [{part, viscous_J, numerical_J, ratio, above_limit}]}, and back. A ratio
+/// that is not finite is null; elements: linear or quadratic. Throws std::exception for another layout.
 nlohmann::ordered_json to_json(const Dissipation& dissipation);
 Dissipation dissipation_from_json(const nlohmann::ordered_json& json);
 

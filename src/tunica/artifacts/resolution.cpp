@@ -20,6 +20,10 @@ bool has_symmetry(const case_file::Case& c) {
                      [](const auto& b) { return std::holds_alternative<bc::Symmetry>(b.second); });
 }
 
+/// Where a coarse flap meets the outer wall at an angle, single nodes have flap on both sides, too. A hole has at least
+/// the nodes of its rim.
+constexpr int fewest_nodes_of_tear = 8;
+
 bool of_lumen(const mesh::MeshData& data, const mesh::FaceData& face) {
   return data.regions[static_cast<std::size_t>(face.region)].kind == RegionKind::lumen;
 }
@@ -106,9 +110,14 @@ std::vector<AcrossPart> resolution(const case_file::Case& c, const mesh::MeshDat
   };
   std::vector<bool> torn(data.points.size());
   for (std::size_t n = 0; n < torn.size(); ++n) torn[n] = is_flap(across.wall[n]) && is_flap(across.facing[n]);
-  int tears = 0;
-  const auto tear = connected(elements, torn, tears);
-  for (int k = 0; k < tears; ++k) add(fmt::format("tear {}", k + 1), [&](std::int64_t n) { return tear[n] == k; });
+  int sets = 0, tears = 0;
+  const auto set = connected(elements, torn, sets);
+  std::vector<int> nodes(static_cast<std::size_t>(sets), 0);
+  for (const int k : set)
+    if (k >= 0) ++nodes[static_cast<std::size_t>(k)];
+  for (int k = 0; k < sets; ++k)
+    if (nodes[static_cast<std::size_t>(k)] >= fewest_nodes_of_tear)
+      add(fmt::format("tear {}", ++tears), [&](std::int64_t n) { return set[n] == k; });
   return parts;
 }
 

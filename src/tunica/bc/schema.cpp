@@ -43,17 +43,23 @@ void check_table(const TableSource& table, Problems& problems) {
   const auto& options = table.options;
   if (!options.periodic && options.period)
     problems.add("period", "a period is given with `periodic: false`", "remove one of them");
+  if (options.periodic && options.hold)
+    problems.add("hold", "the last value is to hold after a periodic table", "set `periodic: false` or remove `hold`");
+  if (options.hold && options.interpolation == Interpolation::ramp)
+    problems.add("hold", "is given beside `interpolation: ramp`, which holds both ends", "remove one of them");
+  const bool series = options.interpolation == Interpolation::fourier ||
+                      (options.interpolation == Interpolation::automatic && is_simvascular(table.file));
   if (!options.periodic && options.interpolation == Interpolation::fourier)
     problems.add("interpolation", "a Fourier series needs a periodic table", "set `periodic: true` or use spline");
   if (table.file.format == TableFormat::fourier &&
-      (options.interpolation != Interpolation::linear || options.period || options.modes > 0 || options.trend))
+      (options.interpolation != Interpolation::automatic || options.period || options.modes > 0 || options.trend))
     problems.add("format", "is fourier, whose file says all about interpolation, period, modes and trend",
                  "remove these keys");
-  if (options.trend && options.interpolation != Interpolation::fourier)
+  if (options.trend && !series)
     problems.add("trend", "belongs to a Fourier series", "set `interpolation: fourier` or remove `trend`");
   if (options.trend && options.period)
     problems.add("period", "is given beside `trend`, for which the table is one period", "remove one of them");
-  if (options.modes > 0 && options.interpolation != Interpolation::fourier)
+  if (options.modes > 0 && !series)
     problems.add("modes", "modes belong to a Fourier series", "set `interpolation: fourier` or remove `modes`");
 }
 
@@ -94,16 +100,22 @@ Schema<TableSource> table_schema(const config::Dimension& due) {
   schema
       .choice(
           "interpolation", [](TableSource & t) -> auto& { return t.options.interpolation; },
-          {{"linear", Interpolation::linear},
+          {{"automatic", Interpolation::automatic},
+           {"linear", Interpolation::linear},
            {"spline", Interpolation::spline},
            {"fourier", Interpolation::fourier},
            {"ramp", Interpolation::ramp}},
-          "Straight lines, cubic spline, the first modes of the Fourier series, or one straight line from the first "
+          "Automatic: fourier for periodic .flow tables, as their readers do, else linear. Straight lines, cubic "
+          "spline, the first modes of the Fourier series, or one straight line from the first "
           "value to the last, which hold before and after")
       .by_default()
       .flag(
           "periodic", [](TableSource & t) -> auto& { return t.options.periodic; },
-          "Repeat the table; if false, times outside it are an error")
+          "Repeat the table; if false, times outside it are an error, but see `hold`")
+      .by_default()
+      .flag(
+          "hold", [](TableSource & t) -> auto& { return t.options.hold; },
+          "With `periodic: false`: the last value holds after the end of the table")
       .by_default()
       .quantity(
           "period", [](TableSource & t) -> auto& { return t.options.period; }, dimension::time, above(0),
@@ -115,8 +127,7 @@ Schema<TableSource> table_schema(const config::Dimension& due) {
       .flag(
           "trend", [](TableSource & t) -> auto& { return t.options.trend; },
           "Fourier: the straight line from the first to the last value is taken off first and added in every period, "
-          "so "
-          "that the table need not close")
+          "so that the table need not close; automatic for .flow tables without `period`")
       .by_default()
       .check(check_table);
   return schema;

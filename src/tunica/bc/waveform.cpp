@@ -135,6 +135,16 @@ void close_period(std::vector<double>& t, std::vector<double>& v, const std::opt
   v.back() = v.front();
 }
 
+/// What `automatic` means for this table: .flow files name their modes, and what reads them takes the straight line
+/// from the first to the last value off (Fourier series of related codes).
+TableOptions resolved(TableOptions options, const Table& table) {
+  if (options.interpolation != Interpolation::automatic) return options;
+  const bool series = table.modes > 0 && options.periodic;
+  options.interpolation = series ? Interpolation::fourier : Interpolation::linear;
+  options.trend = options.trend || (series && !options.period);
+  return options;
+}
+
 double ramp_factor(double t, double ramp_time) {
   if (ramp_time == 0.0 || t >= ramp_time) return 1.0;
   return t <= 0.0 ? 0.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * t / ramp_time));
@@ -162,15 +172,18 @@ Waveform Waveform::step(const Step& step) {
   return Waveform(step, "step");
 }
 
-Waveform Waveform::table(const Table& table, const TableOptions& options, const std::string& where) {
+Waveform Waveform::table(const Table& table, const TableOptions& given, const std::string& where) {
   check_points(table, where);
+  const TableOptions options = resolved(given, table);
   auto t = table.times;
   auto v = table.values;
   if (options.interpolation == Interpolation::ramp)
-    return Waveform(
-        Polynomial{
-            {t.front(), t.back()}, linear_coefficients({t.front(), t.back()}, {v.front(), v.back()}), false, true},
-        where);
+    return Waveform(Polynomial{{t.front(), t.back()},
+                               linear_coefficients({t.front(), t.back()}, {v.front(), v.back()}),
+                               false,
+                               true,
+                               true},
+                    where);
   FourierSeries line{t.front(), t.back() - t.front(), {}, {}};
   if (options.trend) {
     line.value = v.front();
@@ -183,27 +196,33 @@ Waveform Waveform::table(const Table& table, const TableOptions& options, const 
   else if (options.period)
     throw InputError(where, "a period is given for a waveform that is not periodic",
                      "remove `period` or set `periodic: true`");
+  if (options.periodic && options.hold)
+    throw InputError(where, "the last value is to hold after a waveform that is periodic",
+                     "remove `hold` or set `periodic: false`");
   switch (options.interpolation) {
     case Interpolation::linear: {
       auto c = linear_coefficients(t, v);
-      return Waveform(Polynomial{std::move(t), std::move(c), options.periodic}, where);
+      return Waveform(Polynomial{std::move(t), std::move(c), options.periodic, false, options.hold}, where);
     }
     case Interpolation::spline: {
       if (t.size() < 4)
         throw InputError(where, fmt::format("a spline needs 4 points (closing one included), there are {}", t.size()),
                          "give more points or `interpolation: linear`");
       auto c = spline_coefficients(t, v, options.periodic);
-      return Waveform(Polynomial{std::move(t), std::move(c), options.periodic}, where);
+      return Waveform(Polynomial{std::move(t), std::move(c), options.periodic, false, options.hold}, where);
     }
+    case Interpolation::automatic:
     case Interpolation::fourier:
     case Interpolation::ramp:
       break;
   }
+  // The exact coefficients of straight lines know no highest mode; one beyond the points is taken for a slip of the
+  // key.
   const int modes = options.modes > 0 ? options.modes : table.modes;
   if (!options.periodic)
     throw InputError(where, "a Fourier series needs a periodic waveform",
                      "set `periodic: true` or another interpolation");
-  if (modes < 1 || modes > static_cast<int>(t.size()))
+  if (modes < 1 || options.modes > static_cast<int>(t.size()))
     throw InputError(where, fmt::format("{} Fourier modes; the allowed range is 1 .. {}", modes, t.size()),
                      "give `modes`, or name them in the first line of a .flow file");
   FourierSeries series = fourier(t, v, modes);
@@ -260,9 +279,10 @@ Waveform Waveform::ramped(double ramp_time) const {
 
 double Waveform::evaluate(const Polynomial& p, double t) const {
   const double start = p.times.front(), end = p.times.back(), slack = time_tolerance * (end - start);
-  if (!p.periodic && !p.holds && !(t >= start - slack && t <= end + slack))
+  const bool covered = (p.holds_before || t >= start - slack) && (p.holds_after || t <= end + slack);
+  if (!p.periodic && !covered)
     throw InputError(where_, fmt::format("t = {} s lies outside the table, {} .. {} s", t, start, end),
-                     "give a table that spans the simulated time, or set `periodic: true`");
+                     "give a table that spans the simulated time, or set `periodic: true` or `hold: true`");
   t = p.periodic ? start + wrapped(t, start, end - start) : std::clamp(t, start, end);
   const auto next = std::upper_bound(p.times.begin() + 1, p.times.end() - 1, t);
   const auto i = static_cast<std::size_t>(next - p.times.begin()) - 1;

@@ -14,10 +14,11 @@
 namespace tunica::bc {
 
 enum class Interpolation {
-  linear,   ///< straight lines between the points
-  spline,   ///< cubic spline, twice continuously differentiable: periodic, or natural when the table is not periodic
-  fourier,  ///< the first modes of the Fourier series of the straight-line table; periodic tables only
-  ramp      ///< one straight line from the first value to the last, which hold before and after
+  automatic,  ///< as the readers of the format do: fourier for periodic .flow tables, else linear
+  linear,     ///< straight lines between the points
+  spline,     ///< cubic spline, twice continuously differentiable: periodic, or natural when the table is not periodic
+  fourier,    ///< the first modes of the Fourier series of the straight-line table; periodic tables only
+  ramp        ///< one straight line from the first value to the last, which hold before and after
 };
 
 /// `value` for start < t <= end, zero before and after. Times that differ from `start` or `end` by less than 1e-9 of
@@ -72,14 +73,15 @@ Table read_table(const TableFile& file);
 bool is_simvascular(const TableFile& file);  ///< by format, or by the extension .flow or .fcs: SimVascular's signs
 
 struct TableOptions {
-  Interpolation interpolation = Interpolation::linear;
+  Interpolation interpolation = Interpolation::automatic;
   bool periodic = true;
+  bool hold = false;  ///< not periodic only: the last value holds after the table
   /// s; must not be shorter than the table. None: the table spans one period, and its last value must repeat the
   /// first one within 0.1 % of the range. Given: the curve returns to the first value one period after the first time.
   std::optional<double> period = {};
   int modes = 0;  ///< Fourier only, the mean included; 0: as many as the file says
   /// Fourier only: the straight line from the first to the last value is no part of the series, but added to it; the
-  /// table is one period and need not close.
+  /// table is one period and need not close. Of `automatic` so whenever no period is given.
   bool trend = false;
 };
 
@@ -101,7 +103,8 @@ class Waveform {
   static Waveform constant(double value);
   static Waveform step(const Step& step);
   /// `where` names the table in messages. Throws InputError: period that does not close or is shorter than the
-  /// table, Fourier of a table that is not periodic or without a number of modes, fewer than 3 points for a spline.
+  /// table, Fourier of a table that is not periodic or without a number of modes, `hold` of one that is, fewer than 3
+  /// points for a spline.
   static Waveform table(const Table& table, const TableOptions& options, const std::string& where = "table");
 
   /// `where` as in table(). Throws InputError for a period that is not positive and coefficients that are not finite.
@@ -111,8 +114,8 @@ class Waveform {
   /// Multiplied by (1 - cos(pi t / ramp_time)) / 2 until t = ramp_time; 0 leaves it as it is.
   Waveform ramped(double ramp_time) const;
 
-  /// Value at time t [s]. Throws InputError outside the table of a waveform that is not periodic; continues a periodic
-  /// one in both directions.
+  /// Value at time t [s]. Throws InputError outside the table of a waveform that is not periodic and does not hold;
+  /// continues a periodic one in both directions.
   double value(double t) const;
   /// Time average over one period (exact for the chosen interpolation), over the table when it is not periodic, the
   /// value itself of a constant, the plateau of a step. Without the ramp.
@@ -127,7 +130,7 @@ class Waveform {
     std::vector<double> times;
     std::vector<double> coefficients;
     bool periodic;
-    bool holds = false;  // the ends hold before and after
+    bool holds_before = false, holds_after = false;  // the first and the last value
   };
   using Shape = std::variant<Constant, Step, Polynomial, FourierSeries>;
 

@@ -30,10 +30,12 @@ void check_table(const std::string& where, const bc::TableSource& source, const 
   const auto times = bc::read_table(source.file).times;
   const double begin = times.front(), end = times.back(), slack = round_off * (end - begin);
   const std::string table = source.file.path.string();
-  if (end + slack < asked.end)
+  if (end + slack < asked.end && !source.options.hold)
     problems.push_back({where,
                         fmt::format("the table {} ends at {:.9g} s, {} at {:.9g} s", table, end, asked.by, asked.end),
-                        "give a table that spans the whole time, end earlier, or set `periodic: true`"});
+                        "give a table that spans the whole time, end earlier, or set `periodic: true` (it repeats) or "
+                        "`hold: true` (its "
+                        "last value holds)"});
   if (begin - slack > asked.first)
     problems.push_back(
         {where, fmt::format("the table {} begins at {:.9g} s, {} at {:.9g} s", table, begin, asked.by, asked.begin),

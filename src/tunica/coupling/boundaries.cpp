@@ -4,101 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "tunica/base/error.hpp"
 #include "tunica/bc/velocity_profile.hpp"
+#include "tunica/coupling/face_plane.hpp"
+#include "tunica/coupling/held_nodes.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/coupling/whole_face.hpp"
 #include "tunica/fluid/boundary.hpp"
 #include "tunica/parallel/agree.hpp"
-#include "tunica/wall/quadratic_surface.hpp"
 
 namespace tunica::coupling {
 
-using assembly::NodeConstraint;
-
 namespace {
-
-Vec3<double> mean_normal(const distributed::DistributedMesh& mesh, const distributed::Face& face) {
-  double sum[3] = {};
-  for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
-    const auto& n = face.triangles[t];
-    const Vec3<double> x[3] = {mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]};
-    const Vec3<double> area = fluid::area_vector(x);
-    for (int i = 0; i < 3; ++i) sum[i] += area[i];
-  }
-  parallel::global_sum(mesh.comm, sum);
-  const Vec3<double> total{{sum[0], sum[1], sum[2]}};
-  const double size = norm(total);
-  return size > 0 ? (1.0 / size) * total : total;
-}
-
-// Largest distance of its nodes from the mean plane, over the radius of a circle of its area: 0 for a plane.
-double out_of_plane(const distributed::DistributedMesh& mesh, const distributed::Face& face,
-                    const Vec3<double>& normal) {
-  if (norm(normal) < 0.5) return std::numeric_limits<double>::infinity();  // a closed surface
-  double sums[4] = {}, farthest = 0;                                       // area, area times centroid
-  for (std::int32_t t = 0; t < face.owned_triangles; ++t) {
-    const auto& n = face.triangles[t];
-    const Vec3<double> x[3] = {mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]};
-    const double area = fluid::area(x);
-    sums[0] += area;
-    for (int i = 0; i < 3; ++i) sums[1 + i] += area / 3.0 * (x[0][i] + x[1][i] + x[2][i]);
-  }
-  parallel::global_sum(mesh.comm, sums);
-  const Vec3<double> centroid{{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]}};
-  for (const auto& t : face.triangles)
-    for (const auto node : t) farthest = std::max(farthest, std::abs(dot(mesh.points[node] - centroid, normal)));
-  return parallel::global_max(mesh.comm, farthest) / std::sqrt(sums[0] / std::numbers::pi);
-}
-
-// Directions in which a node is held; the free motions are what is orthogonal to them.
-struct Held {
-  Mat3<double> P = identity<double>();
-  bool pressure = false;
-
-  void all() { P = Mat3<double>{}; }
-  void direction(const Vec3<double>& n) {
-    Vec3<double> d = P * n;  // what the earlier directions leave of it
-    const double size = norm(d);
-    if (size < 1e-6) return;
-    d = (1.0 / size) * d;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) P(i, j) -= d[i] * d[j];
-  }
-  bool any() const { return pressure || std::abs(trace(P) - 3.0) > 1e-12; }
-};
-
-// Ghosts on a face may lie outside every face triangle that this rank sees, so they ask their owners.
-std::vector<NodeConstraint> complete_on_ghosts(const distributed::DistributedMesh& mesh,
-                                               const std::vector<Held>& held) {
-  std::vector<double> values(10 * static_cast<std::size_t>(mesh.nodes()));
-  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
-    double* v = values.data() + 10 * static_cast<std::size_t>(i);
-    for (int k = 0; k < 9; ++k) v[k] = held[i].P(k / 3, k % 3);
-    v[9] = held[i].pressure ? 1.0 : 0.0;
-  }
-  mesh.halo.update(values, 10);
-  std::vector<NodeConstraint> list;
-  for (std::int32_t i = 0; i < mesh.nodes(); ++i) {
-    const double* v = values.data() + 10 * static_cast<std::size_t>(i);
-    Held h;
-    for (int k = 0; k < 9; ++k) h.P(k / 3, k % 3) = v[k];
-    h.pressure = v[9] > 0.5;
-    if (h.any()) list.push_back({i, h.P, h.pressure});
-  }
-  return list;
-}
-
-std::array<std::int32_t, 6> quadratic_nodes(const distributed::Face& face, std::size_t t) {
-  const auto &corners = face.triangles[t], &edges = face.edges[t];
-  return {corners[0], corners[1], corners[2], edges[0], edges[1], edges[2]};
-}
 
 /// Flow out of the lumen relative to the moving mesh, of the triangles that this rank owns [m^3/s].
 double owned_flow(const distributed::DistributedMesh& mesh, const distributed::Face& face, const FieldsView& fields) {
@@ -113,14 +34,6 @@ double owned_flow(const distributed::DistributedMesh& mesh, const distributed::F
     sum += fluid::flow(x, v, w);
   }
   return sum;
-}
-
-template <class Kernel>
-void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& matrix, std::int32_t row,
-               std::int32_t column, const Kernel& entry) {
-  float* block = matrix.blocks[pattern.slot(row, column)].a;
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) block[4 * j + i] += static_cast<float>(entry(i, j));
 }
 
 }  // namespace
@@ -245,22 +158,28 @@ struct Boundaries::Builder {
     });
   }
   void operator()(std::size_t index, const bc::Pressure& c) {
-    Load load{.face = index, .kind = Load::Kind::lumen_pressure};
-    if (is_wall(index)) load.kind = c.follower ? Load::Kind::follower_pressure : Load::Kind::dead_pressure;
+    SurfaceLoad load{.face = index, .kind = SurfaceLoad::Kind::lumen_pressure};
+    if (is_wall(index))
+      load.kind = c.follower ? SurfaceLoad::Kind::follower_pressure : SurfaceLoad::Kind::dead_pressure;
     load.course = waveform(c.pressure);
-    b.loads_.push_back(load);
+    b.loads_.bind(load);
     hold_along(index, c.fixed);
   }
   void operator()(std::size_t index, const bc::Traction& c) {
-    Load load{.face = index, .kind = is_wall(index) ? Load::Kind::dead_traction : Load::Kind::lumen_traction};
+    SurfaceLoad load{.face = index,
+                     .kind = is_wall(index) ? SurfaceLoad::Kind::dead_traction : SurfaceLoad::Kind::lumen_traction};
     load.vector = c.vector;
     load.course = waveform(c.course);
-    b.loads_.push_back(load);
+    b.loads_.bind(load);
     hold_along(index, c.fixed);
   }
   void operator()(std::size_t index, const bc::Displacement& c) { hold_along(index, c.directions); }
-  void operator()(std::size_t index, const bc::Resistance& c) { b.outlets_.push_back({index, c}); }
-  void operator()(std::size_t index, const bc::Rcr& c) { b.outlets_.push_back({index, c}); }
+  void operator()(std::size_t index, const bc::Resistance& c) { outlet(index, c); }
+  void operator()(std::size_t index, const bc::Rcr& c) { outlet(index, c); }
+  void outlet(std::size_t index, const std::variant<bc::Resistance, bc::Rcr>& model) {
+    b.outlets_.push_back({index, model});
+    b.loads_.bind_open(index);
+  }
   void operator()(std::size_t index, const bc::Fixed& c) {
     hold_along(index, c.axes());
     if (!c.along_normal()) return;
@@ -358,9 +277,9 @@ struct Boundaries::Builder {
     });
   }
   void operator()(std::size_t index, const bc::Support& c) {
-    Load load{.face = index, .kind = Load::Kind::support};
+    SurfaceLoad load{.face = index, .kind = SurfaceLoad::Kind::support};
     load.support = parallel::agree(mesh.comm, [&] { return support_of(mesh.faces[index], c); });
-    b.loads_.push_back(load);
+    b.loads_.bind(load);
   }
 
   double support_value(const bc::SupportValue& value, const distributed::Face& face,
@@ -392,7 +311,7 @@ struct Boundaries::Builder {
 
 Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly::BlockPattern& pattern,
                        const BoundaryInput& input)
-    : mesh_(mesh), pattern_(pattern), fluid_(input.fluid) {
+    : mesh_(mesh), loads_(mesh, pattern, input.fluid) {
   Builder builder(*this);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) index_of[mesh.faces[f].name] = f;
@@ -412,13 +331,13 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), field);
   for (const auto& [name, field] : input.traction_fields) {
     mesh.face(name);
-    traction_fields_.push_back({index_of[name], field});
+    loads_.bind(TractionField{index_of[name], field});
   }
   for (const auto& [name, nodal] : input.wall_pressures) {
-    Load load{.face = index_of.at(mesh.face(name).name), .kind = Load::Kind::follower_pressure};
+    SurfaceLoad load{.face = index_of.at(mesh.face(name).name), .kind = SurfaceLoad::Kind::follower_pressure};
     for (const auto& t : mesh.face(name).triangles)
       load.pressures.push_back((nodal[t[0]] + nodal[t[1]] + nodal[t[2]]) / 3.0);
-    loads_.push_back(load);
+    loads_.bind(load);
   }
   // no_slip wins on shared nodes.
   std::vector<char> still(mesh.nodes(), 0);
@@ -523,198 +442,6 @@ void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const 
   }
   if (pressure_node_ >= 0) velocity_pressure[at(pressure_node_) + 3] = held_pressure_;
   mesh_.halo.update(velocity_pressure, 4);
-}
-
-void Boundaries::add_lumen_load(const Load& load, double value, const FieldsView& fields,
-                                const LoadCoefficients& coefficients, std::span<double> residual,
-                                assembly::BlockMatrix* matrix) const {
-  if (mesh_.quadratic) {
-    add_quadratic_lumen_load(load, value, fields, coefficients, residual, matrix);
-    return;
-  }
-  for (const auto& triangle : mesh_.faces[load.face].triangles) {
-    Vec3<double> x[3], v[3], w[3];
-    gather(fields.position, triangle, x);
-    gather(fields.velocity_pressure, triangle, v);
-    gather(fields.mesh_velocity, triangle, w);
-    fluid::TriangleVector<double> r{};
-    fluid::TriangleMatrix<double> k{};
-    if (load.kind == Load::Kind::lumen_pressure) {
-      fluid::add_pressure(x, value, r);
-    } else {
-      const Vec3<double> force = (-value * fluid::area(x) / 3.0) * load.vector;
-      for (auto& row : r.r) row = row + force;
-    }
-    fluid::add_backflow(x, v, w, *fluid_, r, matrix != nullptr ? &k : nullptr, coefficients.velocity);
-    for (int a = 0; a < 3; ++a) {
-      for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += r.r[a][i];
-      for (int b = 0; b < 3 && matrix != nullptr; ++b)
-        add_block(pattern_, *matrix, triangle[a], triangle[b], k.k[a][b]);
-    }
-  }
-}
-
-// On a quadratic triangle a constant traction acts on the nodes of the edges alone: the integral of a corner's shape
-// function vanishes.
-void Boundaries::add_quadratic_lumen_load(const Load& load, double value, const FieldsView& fields,
-                                          const LoadCoefficients& coefficients, std::span<double> residual,
-                                          assembly::BlockMatrix* matrix) const {
-  const auto& face = mesh_.faces[load.face];
-  for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-    const auto nodes = quadratic_nodes(face, t);
-    Vec3<double> x[3], v[6], w[6], r[6] = {};
-    gather(fields.position, face.triangles[t], x);
-    gather(fields.velocity_pressure, nodes, v);
-    gather(fields.mesh_velocity, nodes, w);
-    const Vec3<double> area = fluid::area_vector(x);
-    const Vec3<double> force =
-        load.kind == Load::Kind::lumen_pressure ? (value / 3.0) * area : (-value * norm(area) / 3.0) * load.vector;
-    for (int a = 3; a < 6; ++a) r[a] = force;
-    Mat3<double> k[6][6] = {};
-    fluid::add_quadratic_backflow(area, v, w, *fluid_, r, matrix != nullptr ? k : nullptr, coefficients.velocity);
-    for (int a = 0; a < 6 && matrix != nullptr; ++a)
-      for (int b = 0; b < 6; ++b) add_block(pattern_, *matrix, nodes[a], nodes[b], k[a][b]);
-    for (int a = 0; a < 6; ++a)
-      for (int i = 0; i < 3; ++i) residual[at(nodes[a]) + i] += r[a][i];
-  }
-}
-
-void Boundaries::add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
-                                    const LoadCoefficients& coefficients, std::span<double> residual,
-                                    assembly::BlockMatrix* matrix) const {
-  const Load backflow{.face = load.face, .kind = Load::Kind::lumen_pressure};
-  if (mesh_.quadratic) {
-    const auto& face = mesh_.faces[load.face];
-    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
-      const auto nodes = quadratic_nodes(face, k);
-      Vec3<double> x[3], traction[6];
-      gather(fields.position, face.triangles[k], x);
-      for (int a = 0; a < 6; ++a) traction[a] = load.traction(mesh_.points[nodes[a]], t);
-      const double area = factor * fluid::area(x);
-      for (const auto& point : fe::quadratic_seven_points)
-        for (int a = 0; a < 6; ++a)
-          for (int b = 0; b < 6; ++b)
-            for (int i = 0; i < 3; ++i)
-              residual[at(nodes[a]) + i] -= area * point.weight * point.N[a] * point.N[b] * traction[b][i];
-    }
-    add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
-    return;
-  }
-  for (const auto& triangle : mesh_.faces[load.face].triangles) {
-    Vec3<double> x[3], traction[3];
-    gather(fields.position, triangle, x);
-    for (int a = 0; a < 3; ++a) traction[a] = load.traction(mesh_.points[triangle[a]], t);
-    const Vec3<double> sum = traction[0] + traction[1] + traction[2];
-    const double share = -factor * fluid::area(x) / 12.0;  // integral of N_a N_b: A/6 for a = b, else A/12
-    for (int a = 0; a < 3; ++a)
-      for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += share * (sum[i] + traction[a][i]);
-  }
-  add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
-}
-
-void Boundaries::add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
-                               const LoadCoefficients& coefficients, std::span<double> residual,
-                               assembly::BlockMatrix* matrix) const {
-  if (mesh_.quadratic) {
-    add_quadratic_wall_load(load, value, factor, fields, coefficients, residual, matrix);
-    return;
-  }
-  for (std::size_t t = 0; t < mesh_.faces[load.face].triangles.size(); ++t) {
-    const auto& own = mesh_.faces[load.face].triangles[t];
-    const std::array<std::int32_t, 3> triangle{mesh_.host[own[0]], mesh_.host[own[1]], mesh_.host[own[2]]};
-    wall::SupportState<double> s;
-    gather(fields.reference_position, triangle, s.X);
-    gather(fields.displacement, triangle, s.u);
-    gather(fields.velocity_pressure, triangle, s.velocity);
-    Vec3<double> x[3];
-    for (int a = 0; a < 3; ++a) x[a] = s.X[a] + s.u[a];
-    wall::SurfaceVector<double> r{};
-    wall::SurfaceMatrix<double> k{};
-    const double du = coefficients.displacement;
-    switch (load.kind) {
-      case Load::Kind::dead_traction:
-        wall::add_dead_traction(s.X, value * load.vector, r);
-        break;
-      case Load::Kind::dead_pressure:
-        wall::add_pressure(s.X, value, r);
-        break;
-      case Load::Kind::follower_pressure: {
-        const double pressure = load.pressures.empty() ? value : factor * load.pressures[t];
-        wall::add_pressure(x, pressure, r);
-        if (matrix != nullptr) wall::add_pressure_tangent(x, pressure, du, k);
-        break;
-      }
-      default: {
-        wall::TissueSupport<double> support = load.support[t];
-        support.pressure *= factor;
-        wall::add_support(s, support, r);
-        if (matrix != nullptr) wall::add_support_tangent(s, support, du, coefficients.velocity, k);
-      }
-    }
-    for (int a = 0; a < 3; ++a) {
-      for (int i = 0; i < 3; ++i) residual[at(triangle[a]) + i] += r.r[a][i];
-      for (int b = 0; b < 3 && matrix != nullptr; ++b)
-        add_block(pattern_, *matrix, triangle[a], triangle[b], [&](int i, int j) { return k.k[a][b][i][j]; });
-    }
-  }
-}
-
-void Boundaries::add_quadratic_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
-                                         const LoadCoefficients& coefficients, std::span<double> residual,
-                                         assembly::BlockMatrix* matrix) const {
-  namespace wq = wall::quadratic;
-  const auto& face = mesh_.faces[load.face];
-  for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-    auto nodes = quadratic_nodes(face, t);
-    for (auto& node : nodes) node = mesh_.host[node];
-    wq::SurfaceState<double> s;
-    gather(fields.reference_position, nodes, s.X);
-    gather(fields.displacement, nodes, s.u);
-    gather(fields.velocity_pressure, nodes, s.velocity);
-    wq::SurfaceVector<double> r{};
-    wq::SurfaceMatrix<double> k{};
-    auto* tangent = matrix != nullptr ? &k : nullptr;
-    switch (load.kind) {
-      case Load::Kind::dead_traction:
-        wq::add_dead_traction(s, value * load.vector, r);
-        tangent = nullptr;
-        break;
-      case Load::Kind::dead_pressure:
-        wq::add_dead_pressure(s, value, r);
-        tangent = nullptr;
-        break;
-      case Load::Kind::follower_pressure:
-        wq::add_follower_pressure(s, load.pressures.empty() ? value : factor * load.pressures[t],
-                                  coefficients.displacement, r, tangent);
-        break;
-      default: {
-        wall::TissueSupport<double> support = load.support[t];
-        support.pressure *= factor;
-        wq::add_support(s, support, coefficients.displacement, coefficients.velocity, r, tangent);
-      }
-    }
-    for (int a = 0; a < wq::triangle_nodes; ++a) {
-      for (int i = 0; i < 3; ++i) residual[at(nodes[a]) + i] += r.r[a][i];
-      for (int b = 0; b < wq::triangle_nodes && tangent != nullptr; ++b)
-        add_block(pattern_, *matrix, nodes[a], nodes[b], k.k[a][b]);
-    }
-  }
-}
-
-void Boundaries::add_loads(double t, double factor, const FieldsView& fields, const LoadCoefficients& coefficients,
-                           std::span<double> residual, assembly::BlockMatrix* matrix) const {
-  for (const auto& load : loads_) {
-    const double value = factor * load.course.value(t);
-    if (load.kind == Load::Kind::lumen_pressure || load.kind == Load::Kind::lumen_traction)
-      add_lumen_load(load, value, fields, coefficients, residual, matrix);
-    else
-      add_wall_load(load, value, factor, fields, coefficients, residual, matrix);
-  }
-  for (const auto& load : traction_fields_) add_traction_field(load, t, factor, fields, coefficients, residual, matrix);
-  for (const auto& outlet : outlets_) {  // the pressure of an outlet is added by add_outlets
-    const Load backflow{.face = outlet.face, .kind = Load::Kind::lumen_pressure};
-    add_lumen_load(backflow, 0.0, fields, coefficients, residual, matrix);
-  }
 }
 
 std::vector<bc::Outlet> Boundaries::make_outlets() const {

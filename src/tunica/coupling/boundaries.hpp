@@ -1,7 +1,6 @@
 // The conditions of a case, bound to the faces of a distributed mesh.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,22 +9,12 @@
 #include "tunica/assembly/block_matrix.hpp"
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/bc/conditions.hpp"
-#include "tunica/coupling/loop_views.hpp"
 #include "tunica/coupling/settings.hpp"
+#include "tunica/coupling/surface_loads.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/fluid/parameters.hpp"
-#include "tunica/wall/surface.hpp"
 
 namespace tunica::coupling {
-
-/// How the surface loads depend on the Newton unknown.
-struct LoadCoefficients {
-  double velocity = 1.0;      ///< d(v at t_{n+alpha_f}) / d(unknown)
-  double displacement = 0.0;  ///< d(u at t_{n+alpha_f}) / d(unknown)
-};
-
-/// A vector as a function of the reference position [m] and the time [s]. Called on every rank that holds the node.
-using VectorField = std::function<Vec3<double>(const Vec3<double>&, double)>;
 
 /// A lumen face may have the condition `fixed` here, which then holds the velocity.
 struct BoundaryInput {
@@ -64,10 +53,8 @@ class Boundaries {
   /// node][4]).
   void prescribe(double t, std::span<double> velocity_pressure) const;
 
-  /// Adds all surface loads at time t to the residual ([local node][4]) and, where `matrix` is given, their tangent.
-  /// `factor` multiplies the prescribed loads (pressure, traction, p0), for load steps in statics.
-  void add_loads(double t, double factor, const FieldsView& fields, const LoadCoefficients& coefficients,
-                 std::span<double> residual, assembly::BlockMatrix* matrix) const;
+  /// All that acts on faces but the pressures of the outlets.
+  const SurfaceLoads& loads() const { return loads_; }
 
   /// Outlets, in order: their models, and where they are.
   std::vector<bc::Outlet> make_outlets() const;
@@ -106,22 +93,10 @@ class Boundaries {
                      std::span<double> velocity_pressure) const;
 
  private:
-  struct Load {
-    std::size_t face;
-    enum class Kind { lumen_pressure, lumen_traction, follower_pressure, dead_pressure, dead_traction, support } kind;
-    bc::Waveform course = bc::Waveform::constant(1.0);
-    Vec3<double> vector{};
-    std::vector<wall::TissueSupport<double>> support{};  ///< of each triangle: means of its nodes
-    std::vector<double> pressures{};                     ///< follower pressure of each triangle; empty: `course`
-  };
   struct FieldNode {
     std::int32_t node;
     std::size_t field;     ///< in velocity_fields_
     Mat3<double> allowed;  ///< projector on the planes of symmetry that the node lies on
-  };
-  struct TractionField {
-    std::size_t face;
-    VectorField traction;
   };
   struct OutletFace {
     std::size_t face;
@@ -130,24 +105,9 @@ class Boundaries {
   struct Builder;
 
   void find_inflow_nodes();
-  void add_lumen_load(const Load& load, double value, const FieldsView& fields, const LoadCoefficients& coefficients,
-                      std::span<double> residual, assembly::BlockMatrix* matrix) const;
-  void add_quadratic_lumen_load(const Load& load, double value, const FieldsView& fields,
-                                const LoadCoefficients& coefficients, std::span<double> residual,
-                                assembly::BlockMatrix* matrix) const;
-  void add_traction_field(const TractionField& load, double t, double factor, const FieldsView& fields,
-                          const LoadCoefficients& coefficients, std::span<double> residual,
-                          assembly::BlockMatrix* matrix) const;
-  void add_quadratic_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
-                               const LoadCoefficients& coefficients, std::span<double> residual,
-                               assembly::BlockMatrix* matrix) const;
-  void add_wall_load(const Load& load, double value, double factor, const FieldsView& fields,
-                     const LoadCoefficients& coefficients, std::span<double> residual,
-                     assembly::BlockMatrix* matrix) const;
 
   const distributed::DistributedMesh& mesh_;
-  const assembly::BlockPattern& pattern_;
-  std::optional<fluid::Parameters> fluid_;
+  SurfaceLoads loads_;
   assembly::Constraints constraints_;
   std::vector<assembly::NodeConstraint> mesh_constraints_;
   std::vector<bc::Waveform> waveforms_;
@@ -156,8 +116,6 @@ class Boundaries {
   std::vector<FieldNode> field_nodes_;
   std::int32_t pressure_node_ = -1;  ///< owned, whose pressure is held; -1: not on this rank
   double held_pressure_ = 0.0;       ///< [Pa]
-  std::vector<Load> loads_;
-  std::vector<TractionField> traction_fields_;
   std::vector<OutletFace> outlets_;
   std::vector<std::vector<std::int32_t>> tied_nodes_;
   std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_

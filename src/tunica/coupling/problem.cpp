@@ -354,8 +354,8 @@ void Problem::assemble(const State& next, const Instant& instant, bool with_tang
   const LoadCoefficients loads = instant.scheme ? LoadCoefficients{instant.scheme->velocity_per_unknown(),
                                                                    instant.scheme->displacement_per_unknown()}
                                                 : LoadCoefficients{0.0, 1.0};
-  boundaries_.add_loads(instant.time, instant.load_factor, fields(), loads, residual_,
-                        with_tangent ? &matrix_ : nullptr);
+  boundaries_.loads().add(instant.time, instant.load_factor, fields(), loads, residual_,
+                          with_tangent ? &matrix_ : nullptr);
   for (std::size_t k = 0; k < nodal_forces_.size(); ++k) residual_[k] -= instant.load_factor * nodal_forces_[k];
   outlet_flows_ = boundaries_.outlet_flows(fields());
   std::vector<double> pressures, slopes;

@@ -177,8 +177,9 @@ Document report_document(const Chain& chain, const fs::path& folder) {
   for (const auto& s : stages())
     if (s.wanted(chain.settings) && s.name != std::string("report"))
       document.set(fmt::format("stages.{}", s.name), path_to(folder_of(chain, s), folder));
-  const bool pictures = chain.settings.report.value_or(case_file::ReportSettings{}).pictures;
-  document.set("pictures", pictures ? "true" : "false");
+  const auto wanted = chain.settings.report.value_or(case_file::ReportSettings{});
+  document.set("pictures", wanted.pictures ? "true" : "false");
+  document.set("view", wanted.view ? "true" : "false");
   document.set("length_unit", chain.settings.output.units.length);
   if (const fs::path bands = chain.output / "converge/converge.json"; fs::exists(bands))
     document.set("convergence", path_to(bands, folder));

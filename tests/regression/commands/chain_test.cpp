@@ -54,7 +54,7 @@ TEST_F(ChainCommand, ReusesWhatHasTheSameInputs) {
   expect_printed("step 3/3");
   const std::string page = read("out/report/report.html");
   for (const char* text : {"<h1>Tube</h1>", "mean confidence", "TAWSS [Pa]", "iterations of the fixed point",
-                           "Tuned outlets: the case has no stage", "Pictures: not wanted"})
+                           "Tuned outlets: the case has no stage", "Pictures: not wanted", "id=\"view3d\""})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   const auto time = fs::last_write_time(folder_ / "out/run/faces.csv");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();

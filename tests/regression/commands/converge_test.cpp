@@ -22,7 +22,7 @@ class ConvergeCommand : public Program {
 };
 
 TEST_F(ConvergeCommand, GivesEveryFigureABandAndTakesItAgain) {
-  write_case("post: {}\nreport: {pictures: false}\n");
+  write_case("post: {}\nreport: {pictures: false, view: false}\n");
   ASSERT_EQ(tunica("converge case.yaml --ratio 1.5"), 0) << printed();
   const auto first = results();
   ASSERT_EQ(first["levels"].size(), 4U);
@@ -39,6 +39,7 @@ TEST_F(ConvergeCommand, GivesEveryFigureABandAndTakesItAgain) {
   EXPECT_TRUE(fs::exists(folder_ / "out/converge/converge.html"));
   EXPECT_NE(read("out/converge/converge.csv").find("openings/lumen_inlet/pressure/mean_mmHg"), std::string::npos);
   EXPECT_NE(read("out/report/report.html").find(" ± "), std::string::npos);
+  EXPECT_EQ(read("out/report/report.html").find("view3d"), std::string::npos) << "the view is not wanted";
   // The computations are taken as they are.
   const auto made = fs::last_write_time(folder_ / "out/converge/mesh_2/run/manifest.json");
   ASSERT_EQ(tunica("converge case.yaml --ratio 1.5 --quantity 'openings/*/pressure/mean_mmHg'"), 0) << printed();

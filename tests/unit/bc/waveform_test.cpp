@@ -197,6 +197,17 @@ TEST(Waveform, PeriodMayExceedTheTableButMustClose) {
   EXPECT_NEAR(waveform.value(1.25), 2.0, 1e-14);
 }
 
+TEST(Waveform, TheLastValueHoldsWhereAsked) {
+  const Table table{.times = {0.0, 0.5, 0.9}, .values = {1.0, 3.0, 2.0}};
+  const auto held = Waveform::table(table, {.periodic = false, .hold = true});
+  EXPECT_EQ(held.value(0.9), 2.0);
+  EXPECT_EQ(held.value(7.0), 2.0);
+  EXPECT_NEAR(held.value(0.25), 2.0, 1e-14);
+  EXPECT_THROW((void)held.value(-0.1), InputError) << "there is nothing before the first value";
+  EXPECT_THROW((void)Waveform::table(table, {.periodic = false}).value(1.0), InputError);
+  EXPECT_TRUE(contains(message({{0.0, 1.0}, {1.0, 1.0}}, {.hold = true}), "periodic"));
+}
+
 TEST(Waveform, RefusesUnusableOptions) {
   const auto table = sampled(10, 1.0, wave);
   EXPECT_TRUE(contains(message(table, {.interpolation = Interpolation::fourier}), "modes"));
@@ -267,6 +278,19 @@ TEST(WaveformFile, SimVascular) {
   }
 }
 
+TEST(WaveformFile, SimVascularTablesAreSeriesByDefault) {
+  const Temporary file("a.flow", "5 3\n0 0\n0.25 2\n0.5 1\n0.75 -1\n1 0.5\n");  // does not close
+  const auto automatic = make_waveform({.source = TableSource{{.path = file.path}, {}}});
+  const TableOptions options{.interpolation = Interpolation::fourier, .trend = true};
+  const auto series = make_waveform({.source = TableSource{{.path = file.path}, options}});
+  for (double t = 0; t < 2; t += 0.1) EXPECT_EQ(automatic.value(t), series.value(t));
+  EXPECT_NEAR(automatic.period().value(), 1.0, 1e-15);
+  const TableOptions once{.periodic = false};
+  EXPECT_NEAR(make_waveform({.source = TableSource{{.path = file.path}, once}}).value(0.125), 1.0, 1e-14);
+  const Temporary csv("a.csv", "t,q\n0,0\n0.25,2\n1,0\n");
+  EXPECT_NEAR(make_waveform({.source = TableSource{{.path = csv.path}, {}}}).value(0.125), 1.0, 1e-14);
+}
+
 // --- real files -------------------------------------------------------------------------------------------------
 
 fs::path shared(const char* name) { return fs::path(TUNICA_SHARED_DATA) / name; }
@@ -290,7 +314,7 @@ TEST(WaveformFile, RealSimVascularInflow) {
   const auto table = read_table({.path = path, .value_unit = -1e-6});
   EXPECT_EQ(table.modes, 16);
   const auto series = Waveform::table(table, {.interpolation = Interpolation::fourier});
-  const auto lines = Waveform::table(table, {});
+  const auto lines = Waveform::table(table, {.interpolation = Interpolation::linear});
   EXPECT_EQ(series.period().value(), 1.0);
   EXPECT_NEAR(series.mean(), lines.mean(), 1e-18);
   EXPECT_GT(series.mean(), 0.0);

@@ -48,7 +48,7 @@ struct FsiSystem {
                                           s.velocity_per_unknown() / s.displacement_per_unknown()},
                                          target);
     }
-    boundaries.add_loads(0.0, 1.0, fields.view(), {s.velocity_per_unknown(), s.displacement_per_unknown()}, residual,
+    boundaries.loads().add(0.0, 1.0, fields.view(), {s.velocity_per_unknown(), s.displacement_per_unknown()}, residual,
                          tangent);
     return residual;
   }

@@ -11,7 +11,7 @@ namespace {
 using test::SharedFolder;
 
 constexpr const char* dissipation =
-    R"({"limit": 0.5, "from_s": 0, "until_s": 1, "parts": [
+    R"({"limit": 0.5, "from_s": 0, "until_s": 1, "elements": "linear", "parts": [
         {"part": "true lumen", "viscous_J": 2, "numerical_J": 0.5, "ratio": 0.25, "above_limit": false},
         {"part": "tear_1", "viscous_J": 2, "numerical_J": 3, "ratio": 1.5, "above_limit": true}]})";
 

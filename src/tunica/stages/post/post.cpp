@@ -219,7 +219,8 @@ void Post::write() {
                       .openings = read_openings(results_, case_, vessel_, window_),
                       .left_out = vessel_.left_out,
                       .warnings = warnings_};
-    if (case_.solves_fluid()) findings.dissipation = artifacts::read_dissipation(results_, window_.from, window_.until);
+    if (case_.solves_fluid())
+      findings.dissipation = artifacts::read_dissipation(results_, window_.from, window_.until, case_.elements);
     if (run_lumens_)
       findings.lumens = flows_of_run(*run_lumens_, vessel_, window_.from, window_.until);
     else if (!vessel_.side.empty())

@@ -37,7 +37,7 @@ std::string case_part(const ReportCase& report) {
 }
 
 constexpr const char* contents =
-    "<nav aria-label=\"Parts of the page\"><a href=\"#answer\">found</a><a href=\"#view3d\">3D</a>"
+    "<nav aria-label=\"Parts of the page\"><a href=\"#answer\">found</a>{}"
     "<a href=\"#mesh\">geometry</a><a href=\"#cycle\">the beat</a><a href=\"#pictures\">pictures</a>"
     "<a href=\"#method\">method</a><a href=\"#run\">numerics</a><a href=\"#case\">case file</a></nav>\n";
 
@@ -48,6 +48,7 @@ struct View {
 };
 
 View view_of(const stages::report::Results& r, const BeatSource& source, const files::Say& say) {
+  if (!r.report.settings.view) return {};
   View view{"<h2 id=\"view3d\">The beat in 3D</h2>\n", "", false};
   const auto without = [&](const std::string& why) {
     view.text += stages::report::missing("The view", why);
@@ -106,7 +107,8 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   auto plots = collect_plots(source, r.folder("post"));
   part::add_targets(r, plots);
   const View view = view_of(r, source, say);
-  std::string text = viewer::begin_page(report.title.empty() ? "Report" : report.title) + contents;
+  std::string text = viewer::begin_page(report.title.empty() ? "Report" : report.title) +
+                     fmt::format(contents, view.text.empty() ? "" : "<a href=\"#view3d\">3D</a>");
   text += part::answer_part(r, plots) + view.text + part::mesh_part(r) + part::fibres_part(r);
   text += part::cycle_part(r, plots) + part::pictures_part(r, say);
   text += "<h2 id=\"method\">Method</h2>\n" + part::prestress_part(r) + part::outlets_part(r);

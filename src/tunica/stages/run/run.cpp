@@ -479,7 +479,7 @@ void Run::tell_dissipation(double from, double until) {
   told_dissipation_ = true;
   on_disk([&] {
     parallel::on_root(comm_, [&] {
-      progress_.dissipation = artifacts::read_dissipation(folder_, from, until);
+      progress_.dissipation = artifacts::read_dissipation(folder_, from, until, case_.elements);
       if (!progress_.dissipation) return;
       log_->info(artifacts::describe(*progress_.dissipation));
       if (const auto warning = artifacts::warning_of(*progress_.dissipation)) log_->warning(*warning);
