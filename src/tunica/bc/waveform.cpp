@@ -139,7 +139,7 @@ void close_period(std::vector<double>& t, std::vector<double>& v, const std::opt
 /// from the first to the last value off (Fourier series of related codes).
 TableOptions resolved(TableOptions options, const Table& table) {
   if (options.interpolation != Interpolation::automatic) return options;
-  const bool series = table.modes > 0 && options.periodic;
+  const bool series = options.periodic && (table.modes > 0 || options.modes > 0 || options.trend);
   options.interpolation = series ? Interpolation::fourier : Interpolation::linear;
   options.trend = options.trend || (series && !options.period);
   return options;

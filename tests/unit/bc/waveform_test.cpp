@@ -285,6 +285,8 @@ TEST(WaveformFile, SimVascularTablesAreSeriesByDefault) {
   const auto series = make_waveform({.source = TableSource{{.path = file.path}, options}});
   for (double t = 0; t < 2; t += 0.1) EXPECT_EQ(automatic.value(t), series.value(t));
   EXPECT_NEAR(automatic.period().value(), 1.0, 1e-15);
+  const Temporary bare("b.flow", "0 0\n0.25 2\n0.5 1\n0.75 -1\n1 0.5\n");  // names no modes
+  EXPECT_EQ(make_waveform({.source = TableSource{{.path = bare.path}, {.modes = 3}}}).value(0.3), series.value(0.3));
   const TableOptions once{.periodic = false};
   EXPECT_NEAR(make_waveform({.source = TableSource{{.path = file.path}, once}}).value(0.125), 1.0, 1e-14);
   const Temporary csv("a.csv", "t,q\n0,0\n0.25,2\n1,0\n");
