@@ -44,8 +44,12 @@ Schema<FibresCase> FibresCase::schema() {
 }
 
 config::Parsed<FibresCase> read_fibres_case(const std::filesystem::path& file) {
+  return read_fibres_case(config::read_text(file), file);
+}
+
+config::Parsed<FibresCase> read_fibres_case(const std::string& yaml, const std::filesystem::path& file) {
   config::Parsed<FibresCase> parsed;
-  parsed.value = parse(config::read_text(file), file, true, &parsed.warnings);
+  parsed.value = parse(yaml, file, true, &parsed.warnings);
   return parsed;
 }
 

@@ -193,8 +193,8 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const f
   case_file::FibresCase c;
   artifacts::CheckedMesh loaded;
   parallel::on_root(comm, [&] {
-    text = config::read_text(request.file);
-    auto parsed = case_file::read_fibres_case(request.file);
+    text = request.text ? *request.text : config::read_text(request.file);
+    auto parsed = case_file::read_fibres_case(text, request.file);
     for (const Problem& warning : parsed.warnings) say("warning: " + format(warning));
     c = std::move(parsed.value);
     if (request.output) c.output = *request.output;

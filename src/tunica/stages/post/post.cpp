@@ -119,8 +119,8 @@ Post::Post(MPI_Comm comm, const PostRequest& request, std::FILE* screen)
 void Post::read() {
   std::string text;
   parallel::on_root(comm_, [&] {
-    text = config::read_text(request_.case_file);
-    auto parsed = case_file::read_case(request_.case_file);
+    text = request_.case_text ? *request_.case_text : config::read_text(request_.case_file);
+    auto parsed = case_file::read_case(text, request_.case_file);
     case_ = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) warnings_.push_back(format(warning));
     check_analysis(case_);
