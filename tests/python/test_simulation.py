@@ -83,7 +83,7 @@ class Cases(InAFolder):
 
     def test_files_count_from_the_folder(self):
         (self.folder / "q.csv").write_text("t,q\n0,0\n1,1\n")
-        flow = {"flow": {"table": {"file": "q.csv", "time": "s", "value": "ml/s"}, "periodic": False}}
+        flow = {"flow": {"table": {"file": "q.csv", "time_unit": "s", "unit": "ml/s", "periodic": False}}}
         case = self.case.replace({"boundary.lumen_inlet": flow})
         (self.folder / "below").mkdir()
         saved = tunica.Case(case.save(self.folder / "below" / "case.yaml"))
@@ -195,7 +195,7 @@ class Simulations(InAFolder):
         values = 1e-6 * np.array([0, 3, 11, 20, 18, 9, 4.0])
         rows = "".join(f"{t:.17g},{1e6 * q:.17g}\n" for t, q in zip(times, values))
         (self.folder / "q.csv").write_text("t,q\n" + rows)
-        table = {"flow": {"table": {"file": "q.csv", "time": "s", "value": "ml/s"}, "periodic": False}}
+        table = {"flow": {"table": {"file": "q.csv", "time_unit": "s", "unit": "ml/s", "periodic": False}}}
         by_table = self.program("table", case=self.case.replace({"boundary.lumen_inlet": table}))
         by_function = self.simulation("function", case, inflow={"lumen_inlet": lambda t: np.interp(t, times, values)}).run()
         self.expect_same(by_function, by_table, rtol=1e-9)
