@@ -32,6 +32,22 @@ using Functions = std::map<std::string, py::function>;
 
 /// stages::Simulation with all that it needs to live, and functions of Python as its inflows.
 class Simulation : Releasable {
+ private:
+  /// Runs `action` without the lock of the interpreter. What a function of Python has raised on its way is raised again
+  /// on the rank that called it; on the others it is an error with its text.
+  template <class Action>
+  auto calling_back(const Action& action) {
+    try {
+      const py::gil_scoped_release released;
+      return action();
+    } catch (const parallel::SharedError&) {
+      if (!raised_) throw;
+      const py::error_already_set again = *raised_;
+      raised_.reset();
+      throw again;
+    }
+  }
+
  public:
   Simulation(const std::string& yaml, const fs::path& file, const py::object& comm,
              const std::optional<fs::path>& directory, bool restart, const std::optional<fs::path>& restart_file,
@@ -39,14 +55,15 @@ class Simulation : Releasable {
       : comm_(std::make_unique<OwnComm>(comm)) {
     std::vector<std::pair<std::string, coupling::Course>> courses;
     for (const auto& [face, function] : inflows) courses.emplace_back(face, course_of(face, function));
-    stages::RunRequest request{.case_file = file,
-                               .case_text = yaml,
-                               .directory = directory,
-                               .restart = restart,
-                               .restart_file = restart_file,
-                               .overwrite = overwrite,
-                               .until = until,
-                               .program = program()};
+    stages::RunRequest request;
+    request.case_file = file;
+    request.case_text = yaml;
+    request.directory = directory;
+    request.restart = restart;
+    request.restart_file = restart_file;
+    request.overwrite = overwrite;
+    request.until = until;
+    request.program = program();
     const py::gil_scoped_release released;
     case_ = stages::read_case(*comm_, file, yaml);
     case_.inflows = std::move(courses);
@@ -78,21 +95,6 @@ class Simulation : Releasable {
   }
 
  private:
-  /// Runs `action` without the lock of the interpreter. What a function of Python has raised on its way is raised again
-  /// on the rank that called it; on the others it is an error with its text.
-  template <class Action>
-  auto calling_back(const Action& action) {
-    try {
-      const py::gil_scoped_release released;
-      return action();
-    } catch (const parallel::SharedError&) {
-      if (!raised_) throw;
-      const py::error_already_set again = *raised_;
-      raised_.reset();
-      throw again;
-    }
-  }
-
   /// Called on rank 0 alone, so that all ranks have the same.
   coupling::Course course_of(const std::string& face, const py::function& function) {
     const std::shared_ptr<py::function> held(new py::function(function), [](py::function* object) {
