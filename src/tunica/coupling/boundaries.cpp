@@ -128,14 +128,18 @@ void add_block(const assembly::BlockPattern& pattern, assembly::BlockMatrix& mat
 namespace {
 
 void check_inflows(const BoundaryInput& input) {
-  std::vector<std::string> flows;
+  std::set<std::string> flows;
+  std::string names;
   for (const auto& [face, condition] : input.conditions)
-    if (std::holds_alternative<bc::Flow>(condition)) flows.push_back(face);
+    if (std::holds_alternative<bc::Flow>(condition)) {
+      flows.insert(face);
+      names += (names.empty() ? "" : ", ") + face;
+    }
   for (const auto& [face, course] : input.inflows)
-    if (std::find(flows.begin(), flows.end(), face) == flows.end())
+    if (!flows.contains(face))
       throw InputError("inflow of " + face, "the case gives no condition `flow` to a face of this name",
                        flows.empty() ? "add `" + face + ": {flow: 0 ml/s}` to `boundary`: it stands for the function"
-                                     : "name one of: " + fmt::format("{}", fmt::join(flows, ", ")));
+                                     : "name one of: " + names);
 }
 
 }  // namespace
