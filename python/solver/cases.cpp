@@ -7,7 +7,7 @@
 
 #include "solver.hpp"
 #include "tunica/base/error.hpp"
-#include "tunica/case/case.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/document.hpp"
 
 namespace tunica::python {

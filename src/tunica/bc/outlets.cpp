@@ -61,23 +61,6 @@ Outlet::Outlet(std::string face, const std::variant<Resistance, Rcr>& model) : f
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-std::variant<Resistance, Rcr> Outlet::model() const {
-  if (capacitance_ == 0) return Resistance{proximal_, distal_pressure_};
-  return Rcr{proximal_, capacitance_, distal_, distal_pressure_};
-}
-
-void Outlet::set_model(const std::variant<Resistance, Rcr>& model) {
-  Outlet changed(face_, model);
-  if ((changed.capacitance_ == 0) != (capacitance_ == 0))
-    throw InputError("boundary." + face_,
-                     capacitance_ == 0 ? "is a resistance, and is given the parameters of a Windkessel"
-                                       : "is a Windkessel, and is given the parameters of a resistance",
-                     "keep the kind of outlet that the case has");
-  changed.flow_ = flow_;
-  if (capacitance_ != 0) changed.capacitor_ = capacitor_;  // that of a resistance is its distal pressure
-  *this = std::move(changed);
-}
-
 Outlet::Stored Outlet::stored_after(double s, double end_flow) const {
   if (capacitance_ == 0) return {distal_pressure_, 0.0};
   // Variation of constants for x = P_c - P_d with Q = Q_n + (Q(s) - Q_n) t/s on 0 <= t <= s, z = s / (R_d C):

@@ -55,12 +55,6 @@ class Outlet {
   /// Starts at rest: Q = 0 and P_c as given. Throws InputError naming the values that are out of range.
   Outlet(std::string face, const std::variant<Resistance, Rcr>& model);
 
-  /// Its parameters; a Windkessel tells none of its initial pressure, which is past.
-  std::variant<Resistance, Rcr> model() const;
-  /// Other parameters from the last committed time on; flow and stored pressure stay. Throws InputError as the
-  /// constructor, and where a resistance would become a Windkessel or the other way round.
-  void set_model(const std::variant<Resistance, Rcr>& model);
-
   /// Flow at the initial time, where a run does not start from rest. P_c stays.
   void set_initial_flow(double flow) { flow_ = flow; }
 

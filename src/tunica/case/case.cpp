@@ -7,6 +7,7 @@
 
 #include "tunica/bc/velocity_profile.hpp"
 #include "tunica/bc/waveform.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/case/compared_law.hpp"
 #include "tunica/case/keys.hpp"
 #include "tunica/case/mesh_settings.hpp"

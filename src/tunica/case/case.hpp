@@ -186,8 +186,6 @@ config::Document case_document(const std::string& yaml, const std::filesystem::p
 /// Reads and validates a case file without its meshes; tables of waveforms are read and checked, too. Throws
 /// InputError with all problems. Not collective: call it on one rank, and `parse_case` on the others.
 config::Parsed<Case> read_case(const std::filesystem::path& file);
-/// The same from the text of a case; `file`: where it stands, or would stand: paths count from its folder.
-config::Parsed<Case> read_case(const std::string& yaml, const std::filesystem::path& file);
 
 /// The same from the text of a case file that one rank has read; looks at no files.
 Case parse_case(const std::string& yaml, const std::filesystem::path& file);

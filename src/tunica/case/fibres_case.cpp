@@ -1,5 +1,7 @@
 #include "tunica/case/fibres_case.hpp"
 
+#include "tunica/case/case_text.hpp"
+
 namespace tunica::case_file {
 
 namespace {

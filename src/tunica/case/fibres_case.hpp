@@ -24,8 +24,6 @@ struct FibresCase : FibreSettings {
 
 /// Throws InputError with all problems. Not collective: call it on one rank, and `parse_fibres_case` on the others.
 config::Parsed<FibresCase> read_fibres_case(const std::filesystem::path& file);
-/// The same from text; paths count from the folder of `file`.
-config::Parsed<FibresCase> read_fibres_case(const std::string& yaml, const std::filesystem::path& file);
 /// The same from text that one rank has read; looks at no files.
 FibresCase parse_fibres_case(const std::string& yaml, const std::filesystem::path& file);
 

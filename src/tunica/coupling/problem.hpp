@@ -75,9 +75,7 @@ class Problem {
   /// At rest, undeformed.
   State initial_state() const;
 
-  /// Takes `state` from t_n to t_n + dt, or leaves it untouched and says why not, or throws what a course of the
-  /// boundary throws and leaves it untouched as well. Its fields stay where they are in memory, as in solve_static().
-  /// Collective.
+  /// Takes `state` from t_n to t_n + dt, or leaves it untouched and says why not. Collective.
   StepReport advance(State& state, double dt);
 
   /// Static equilibrium of the wall under `factor` times the loads of time state.time, starting from `state`.

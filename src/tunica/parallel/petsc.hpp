@@ -56,9 +56,7 @@ using IsHandle = Handle<IS, ISDestroy>;
 using ScatterHandle = Handle<VecScatter, VecScatterDestroy>;
 
 /// MPI and PETSc from construction to destruction. PETSc reads neither ~/.petscrc nor PETSC_OPTIONS nor the program's
-/// arguments, installs no signal handler and prints no error traces (they arrive through `check`). Where a program has
-/// MPI running already, that goes on when the session ends; where it has PETSc running, the session leaves all of it to
-/// that program.
+/// arguments, installs no signal handler and prints no error traces (they arrive through `check`).
 class Session {
  public:
   /// `options`: given to PETSc as they are, such as {"-log_view"}.
@@ -68,7 +66,6 @@ class Session {
   Session& operator=(const Session&) = delete;
 
  private:
-  bool owns_petsc_ = false;
   std::vector<std::string> arguments_;  // PETSc keeps pointers into these
   std::vector<char*> pointers_;
 };

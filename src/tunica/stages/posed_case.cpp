@@ -11,6 +11,7 @@
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/artifacts/problem_input.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/case/table_ends.hpp"
 #include "tunica/distributed/results_writer.hpp"
 #include "tunica/parallel/agree.hpp"

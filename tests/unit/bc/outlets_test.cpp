@@ -105,33 +105,6 @@ TEST(Outlet, LimitsOfCapacitanceAndDistalResistance) {
   EXPECT_NEAR(closed.stored_pressure() - 500.0, 0.5 * 1e-2 * 1e-5 / m.capacitance, 1e-10);
 }
 
-TEST(Outlet, OtherParametersKeepFlowAndStoredPressure) {
-  Outlet outlet("out", typical);
-  outlet.commit(0.1, 5e-5);
-  const auto before = outlet.state();
-  Rcr m = typical;
-  m.distal *= 2, m.proximal *= 3;
-  outlet.set_model(m);
-  EXPECT_EQ(outlet.state(), before);
-  EXPECT_DOUBLE_EQ(outlet.pressure(), before[1] + m.proximal * before[0]);
-  EXPECT_EQ(std::get<Rcr>(outlet.model()).distal, m.distal);
-  Outlet expected("out", m);
-  expected.restore(before);
-  outlet.commit(0.1, 6e-5);
-  expected.commit(0.1, 6e-5);
-  EXPECT_EQ(outlet.state(), expected.state());
-  m.capacitance = -1;
-  EXPECT_THROW(outlet.set_model(m), InputError);
-  EXPECT_THROW(outlet.set_model(Resistance{1e8, 0.0}), InputError);
-  EXPECT_EQ(std::get<Rcr>(outlet.model()).capacitance, typical.capacitance);
-
-  Outlet resistance("out", Resistance{1e8, 100.0});
-  resistance.commit(0.1, 1e-6);
-  resistance.set_model(Resistance{2e8, 300.0});
-  EXPECT_DOUBLE_EQ(resistance.pressure(), 500.0);
-  EXPECT_THROW(resistance.set_model(typical), InputError);
-}
-
 TEST(Outlet, InitialPressureAndStateContinueBitForBit) {
   Rcr m = typical;
   EXPECT_EQ(Outlet("out", m).stored_pressure(), 500.0);

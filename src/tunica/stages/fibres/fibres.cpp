@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/files/lock.hpp"

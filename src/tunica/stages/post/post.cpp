@@ -8,6 +8,7 @@
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"

@@ -14,6 +14,7 @@
 #include "tunica/artifacts/problem_input.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/case/table_ends.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"

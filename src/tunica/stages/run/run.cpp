@@ -61,10 +61,11 @@ class Run {
   const coupling::State& state() const { return state_; }
   const distributed::DistributedMesh& mesh() const { return mesh_; }
   const fs::path& folder() const { return folder_; }
-  std::size_t outlet(const std::string& face) const;
-  void set_outlet(const std::string& face, const std::variant<bc::Resistance, bc::Rcr>& model);
+  const OutletModel& outlet(const std::string& face) const;
+  void set_outlet(const std::string& face, const OutletModel& model);
 
  private:
+  std::size_t find_outlet(const std::string& face) const;
   /// Runs `action`; an error that it throws ends the run.
   template <class Action>
   auto guarded(const Action& action);
@@ -151,6 +152,7 @@ class Run {
   bool state_is_whole_ = true;          ///< the state belongs to one instant, and the histories reach up to it
   std::optional<parallel::Progress> bar_;
   bool told_dissipation_ = false;
+  std::vector<OutletModel> outlet_models_;  ///< of state_.outlets
   artifacts::StepHistory last_{.step = -1, .record = {}, .report = {}};
   bool begun_ = false, nothing_to_do_ = false, periodic_ = false, ended_ = false;
   int signal_ = 0;    ///< that ends the run
@@ -244,6 +246,12 @@ void Run::prepare_folder() {
 void Run::pose() {
   posed_.pose(input_, comm_);
   state_ = problem_->initial_state();
+  for (const auto& outlet : state_.outlets)
+    for (const auto& [face, condition] : case_.boundary) {
+      if (face != outlet.face()) continue;
+      if (const auto* rcr = std::get_if<bc::Rcr>(&condition)) outlet_models_.emplace_back(*rcr);
+      if (const auto* resistance = std::get_if<bc::Resistance>(&condition)) outlet_models_.emplace_back(*resistance);
+    }
   if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
   if (case_.start && !continued()) start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
 }
@@ -689,7 +697,7 @@ void Run::end() {
   }
 }
 
-std::size_t Run::outlet(const std::string& face) const {
+std::size_t Run::find_outlet(const std::string& face) const {
   std::string names;
   for (std::size_t k = 0; k < state_.outlets.size(); ++k) {
     if (state_.outlets[k].face() == face) return k;
@@ -699,9 +707,24 @@ std::size_t Run::outlet(const std::string& face) const {
                    names.empty() ? "give a face the condition `rcr` or `resistance`" : "name one of: " + names);
 }
 
-void Run::set_outlet(const std::string& face, const std::variant<bc::Resistance, bc::Rcr>& model) {
+const OutletModel& Run::outlet(const std::string& face) const { return outlet_models_[find_outlet(face)]; }
+
+void Run::set_outlet(const std::string& face, const OutletModel& model) {
   refuse_after_end();
-  state_.outlets[outlet(face)].set_model(model);
+  const std::size_t k = find_outlet(face);
+  const bool resistances = std::holds_alternative<bc::Resistance>(model);
+  if (model.index() != outlet_models_[k].index())
+    throw InputError("outlet " + face,
+                     resistances ? "is a Windkessel, and is given the parameters of a resistance"
+                                 : "is a resistance, and is given the parameters of a Windkessel",
+                     "keep the kind of outlet that the case has");
+  bc::Outlet changed(face, model);
+  if (resistances)
+    changed.set_initial_flow(state_.outlets[k].flow());  // it stores nothing
+  else
+    changed.restore(state_.outlets[k].state());
+  state_.outlets[k] = std::move(changed);
+  outlet_models_[k] = model;
   const auto* rcr = std::get_if<bc::Rcr>(&model);
   const auto* resistance = std::get_if<bc::Resistance>(&model);
   log_->info(fmt::format(
@@ -727,12 +750,8 @@ const artifacts::StepHistory& Simulation::last() const { return run_->last(); }
 const coupling::State& Simulation::state() const { return run_->state(); }
 const distributed::DistributedMesh& Simulation::mesh() const { return run_->mesh(); }
 fs::path Simulation::folder() const { return run_->folder(); }
-std::variant<bc::Resistance, bc::Rcr> Simulation::outlet(const std::string& face) const {
-  return run_->state().outlets[run_->outlet(face)].model();
-}
-void Simulation::set_outlet(const std::string& face, const std::variant<bc::Resistance, bc::Rcr>& model) {
-  run_->set_outlet(face, model);
-}
+OutletModel Simulation::outlet(const std::string& face) const { return run_->outlet(face); }
+void Simulation::set_outlet(const std::string& face, const OutletModel& model) { run_->set_outlet(face, model); }
 
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
   const parallel::StopSignals signals;  // one that comes while the run is prepared ends it before the first step

@@ -17,6 +17,8 @@ namespace tunica::stages {
 
 class Run;  // run.cpp
 
+using OutletModel = std::variant<bc::Resistance, bc::Rcr>;
+
 /// Writes into the folder of results what run() says, as far as it is stepped. Member functions are collective, but for
 /// those that are const. An error of step(), checkpoint() or finish() ends the run, with everything until then on disk,
 /// as it ends `tunica run`.
@@ -53,10 +55,11 @@ class Simulation {
   std::filesystem::path folder() const;
 
   /// Parameters of the outlet on a face. Throws InputError for a face without one.
-  std::variant<bc::Resistance, bc::Rcr> outlet(const std::string& face) const;
+  OutletModel outlet(const std::string& face) const;
   /// Other ones from the last step on; flow and stored pressure stay, and run.log says so. They are no part of
-  /// checkpoints: a restart has those of the case until they are set again. Throws as bc::Outlet::set_model().
-  void set_outlet(const std::string& face, const std::variant<bc::Resistance, bc::Rcr>& model);
+  /// checkpoints: a restart has those of the case until they are set again. Throws InputError as bc::Outlet does, and
+  /// where a resistance would become a Windkessel or the other way round.
+  void set_outlet(const std::string& face, const OutletModel& model);
 
  private:
   std::unique_ptr<Run> run_;

@@ -9,6 +9,7 @@
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/artifacts/run_folder.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
