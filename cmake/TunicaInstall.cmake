@@ -34,7 +34,7 @@ install(FILES ${texts}/_tunica DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-fun
 install(FILES ${texts}/tunica.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
 if(TARGET tunica_python)
-  install(TARGETS tunica_python LIBRARY DESTINATION ${TUNICA_PYTHON_INSTALL_DIR}/tunica)
+  install(TARGETS tunica_python tunica_python_solver LIBRARY DESTINATION ${TUNICA_PYTHON_INSTALL_DIR}/tunica)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/tunica DESTINATION ${TUNICA_PYTHON_INSTALL_DIR}
     FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed")
 endif()

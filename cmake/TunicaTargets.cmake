@@ -60,9 +60,6 @@ function(tunica_cgal_sources)
     COMPILE_DEFINITIONS "NDEBUG;CGAL_USE_GMP;CGAL_USE_MPFR")
 endfunction()
 
-# The Python module is a shared library, so the rooms in it are position-independent.
-set(TUNICA_POSITION_INDEPENDENT base config files fe mesh field_io mesh_io wall)
-
 # tunica_folder(<name> [LINK <targets>...]): the library of src/tunica/<name>, header-only when it has no .cpp file.
 # LINK names exactly what the include table in ARCHITECTURE.md allows.
 function(tunica_folder name)
@@ -75,9 +72,8 @@ function(tunica_folder name)
     tunica_instruction_sets(${sources})
     add_library(tunica_${name} STATIC ${sources})
     target_link_libraries(tunica_${name} PUBLIC tunica_flags ${ARG_LINK})
-    if(name IN_LIST TUNICA_POSITION_INDEPENDENT)
-      set_target_properties(tunica_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    endif()
+    # The Python modules are shared libraries, and so may be what else is made of the rooms.
+    set_target_properties(tunica_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   else()
     add_library(tunica_${name} INTERFACE)
     target_link_libraries(tunica_${name} INTERFACE tunica_flags ${ARG_LINK})

@@ -7,6 +7,8 @@ namespace tunica::python {
 
 /// InputError and SolverError, into which the errors of the library turn, with the same text.
 void bind_errors(pybind11::module_& m);
+/// The same types for another extension module of the package: errors of the library turn into them there, too.
+void use_errors();
 
 /// Wall laws at material points.
 void bind_materials(pybind11::module_& m);

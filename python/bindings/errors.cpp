@@ -32,7 +32,24 @@ PyObject* new_exception(py::module_& m, const char* name, const char* help, PyOb
   return type;
 }
 
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const InputError& error) {
+    PyErr_SetObject(input_error, exception_of(error).ptr());
+  } catch (const SolverError& error) {
+    PyErr_SetString(solver_error, error.what());
+  }
+}
+
 }  // namespace
+
+void use_errors() {
+  const py::module_ core = py::module_::import("tunica._core");
+  input_error = py::object(core.attr("InputError")).release().ptr();
+  solver_error = py::object(core.attr("SolverError")).release().ptr();
+  py::register_local_exception_translator(translate);
+}
 
 void bind_errors(py::module_& m) {
   input_error = new_exception(m, "InputError",
@@ -44,15 +61,7 @@ void bind_errors(py::module_& m) {
   m.def("input_error", [](const std::string& where, const std::string& what, const std::string& remedy) {
     return exception_of(InputError(where, what, remedy));
   });
-  py::register_exception_translator([](std::exception_ptr pointer) {
-    try {
-      if (pointer) std::rethrow_exception(pointer);
-    } catch (const InputError& error) {
-      PyErr_SetObject(input_error, exception_of(error).ptr());
-    } catch (const SolverError& error) {
-      PyErr_SetString(solver_error, error.what());
-    }
-  });
+  py::register_local_exception_translator(translate);
 }
 
 }  // namespace tunica::python

@@ -4,9 +4,20 @@ from typing import Any, Union
 from . import materials as materials
 from ._core import InputError as InputError
 from ._core import SolverError as SolverError
+from .cases import Case as Case
+from .meshes import Mesh as Mesh
+from .meshes import material_axes as material_axes
 from .results import Fields as Fields
 from .results import Pipeline as Pipeline
 from .results import Results as Results
+from .simulation import Simulation as Simulation
+from .simulation import Step as Step
+from .stages import CycleQuantities as CycleQuantities
+from .stages import Outlets as Outlets
+from .stages import Prestress as Prestress
+from .stages import cycle_quantities as cycle_quantities
+from .stages import prestress as prestress
+from .stages import tune_outlets as tune_outlets
 
 __version__: str
 

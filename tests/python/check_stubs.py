@@ -11,6 +11,10 @@ import tunica
 from tunica import materials
 law = materials.hgo(shear_modulus="20 kPa", families=[{"k1": 1e3}])
 stress = law.stress(np.eye(3), measure="cauchy")
+simulation = tunica.Simulation(tunica.Case(time={"steps": 2}), inflow={"inlet": lambda t: 1e-6 * t})
+for step in simulation:
+    print(step.flow["inlet"] + float(simulation.velocity.max()), simulation.outlets["outlet"]["distal"])
+print(tunica.Mesh({"tube": {}}).points.shape, tunica.prestress("case.yaml", "out").apply("case.yaml").yaml)
 print(stress.shape, law.uniaxial(to=1.2).load.max(), tunica.open("results").fields("lumen").points)
 """
 WRONG = """
@@ -37,9 +41,11 @@ def main():
         if right.returncode or not wrong.returncode:
             print(right.stdout, right.stderr, wrong.stdout, sep="\n")
             return 1
-        (folder / "allowed").write_text("tunica._core.Law\n")  # its metaclass is one of pybind11
+        (folder / "allowed").write_text(  # their metaclass is one of pybind11
+            "tunica._core.Law\ntunica._solver.MeshData\ntunica._solver.Simulation\n")
         test = subprocess.run([sys.executable, "-m", "mypy.stubtest", "tunica._core", "tunica.materials",
-                               "tunica.results", "--ignore-missing-stub", "--allowlist", "allowed"], cwd=folder, capture_output=True, text=True,
+                               "tunica.results", "tunica._solver", "tunica.cases", "tunica.meshes", "tunica.simulation",
+                               "tunica.stages", "--ignore-missing-stub", "--allowlist", "allowed"], cwd=folder, capture_output=True, text=True,
                               env={**os.environ, "MYPYPATH": str(folder)})
         print(test.stdout, test.stderr)
         return test.returncode

@@ -7,13 +7,13 @@ import tempfile
 import os
 
 import tunica
-from tunica import materials, results
+from tunica import cases, materials, meshes, results, simulation, stages
 
 
 def main():
     page = pathlib.Path(sys.argv[1]).resolve()
     failed = attempted = 0
-    for module in (tunica, materials, results):
+    for module in (tunica, materials, results, cases, meshes, simulation, stages):
         outcome = doctest.testmod(module)
         failed, attempted = failed + outcome.failed, attempted + outcome.attempted
     if attempted == 0:

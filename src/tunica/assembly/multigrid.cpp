@@ -16,7 +16,8 @@ namespace {
 
 using Options = std::initializer_list<std::pair<const char*, const char*>>;
 
-/// Not yet bound to a matrix. `options`: names behind `prefix`, which is this kind's alone.
+/// Not yet bound to a matrix. `options`: names behind `prefix`, which is this kind's alone. They stay in the options of
+/// the process, since parts of the preconditioner that come with its set-up read them there.
 parallel::PcHandle make_preconditioner(MPI_Comm comm, const std::string& prefix, PCType type, const Options& options) {
   for (const auto& [key, value] : options) check(PetscOptionsSetValue(nullptr, ("-" + prefix + key).c_str(), value));
   parallel::PcHandle result;

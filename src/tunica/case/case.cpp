@@ -7,6 +7,7 @@
 
 #include "tunica/bc/velocity_profile.hpp"
 #include "tunica/bc/waveform.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/case/compared_law.hpp"
 #include "tunica/case/keys.hpp"
 #include "tunica/case/mesh_settings.hpp"
@@ -321,8 +322,10 @@ config::Document case_document(const std::string& yaml, const std::filesystem::p
   return document;
 }
 
-config::Parsed<Case> read_case(const std::filesystem::path& file) {
-  config::Parsed<Case> parsed = parse(config::read_text(file), file, true);
+config::Parsed<Case> read_case(const std::filesystem::path& file) { return read_case(config::read_text(file), file); }
+
+config::Parsed<Case> read_case(const std::string& yaml, const std::filesystem::path& file) {
+  config::Parsed<Case> parsed = parse(yaml, file, true);
   std::vector<Problem> problems = check_waveforms(parsed.value);
   if (!problems.empty()) throw InputError(std::move(problems));
   for (auto& warning : implausible_values(parsed.value)) parsed.warnings.push_back(std::move(warning));

@@ -1,5 +1,7 @@
 #include "tunica/case/fibres_case.hpp"
 
+#include "tunica/case/case_text.hpp"
+
 namespace tunica::case_file {
 
 namespace {
@@ -44,8 +46,12 @@ Schema<FibresCase> FibresCase::schema() {
 }
 
 config::Parsed<FibresCase> read_fibres_case(const std::filesystem::path& file) {
+  return read_fibres_case(config::read_text(file), file);
+}
+
+config::Parsed<FibresCase> read_fibres_case(const std::string& yaml, const std::filesystem::path& file) {
   config::Parsed<FibresCase> parsed;
-  parsed.value = parse(config::read_text(file), file, true, &parsed.warnings);
+  parsed.value = parse(yaml, file, true, &parsed.warnings);
   return parsed;
 }
 

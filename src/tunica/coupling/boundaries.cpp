@@ -36,6 +36,21 @@ double owned_flow(const distributed::DistributedMesh& mesh, const distributed::F
   return sum;
 }
 
+void check_inflows(const BoundaryInput& input) {
+  std::set<std::string> flows;
+  std::string names;
+  for (const auto& [face, condition] : input.conditions)
+    if (std::holds_alternative<bc::Flow>(condition)) {
+      flows.insert(face);
+      names += (names.empty() ? "" : ", ") + face;
+    }
+  for (const auto& [face, course] : input.inflows)
+    if (!flows.contains(face))
+      throw InputError("inflow of " + face, "the case gives no condition `flow` to a face of this name",
+                       flows.empty() ? "add `" + face + ": {flow: 0 ml/s}` to `boundary`: it stands for the function"
+                                     : "name one of: " + names);
+}
+
 }  // namespace
 
 // Collects what the conditions ask of nodes, face by face.
@@ -45,14 +60,16 @@ struct Boundaries::Builder {
   std::vector<Held> held, mesh_held, symmetric;  // `symmetric`: by planes of symmetry alone
   std::vector<std::size_t> symmetry_faces{};
   std::vector<char> interface_node;
+  const std::vector<std::pair<std::string, Course>>& inflows;
 
-  explicit Builder(Boundaries& boundaries)
+  Builder(Boundaries& boundaries, const BoundaryInput& input)
       : b(boundaries),
         mesh(b.mesh_),
         held(mesh.nodes()),
         mesh_held(mesh.nodes()),
         symmetric(mesh.nodes()),
-        interface_node(mesh.nodes(), 0) {
+        interface_node(mesh.nodes(), 0),
+        inflows(input.inflows) {
     for (std::int32_t i = 0; i < mesh.nodes(); ++i)
       if (mesh.host[i] != i) {
         held[i].all();  // the host moves for it
@@ -84,11 +101,14 @@ struct Boundaries::Builder {
       if (node < mesh.owned_nodes) visit_owned(node);
     });
   }
-  void prescribe(const distributed::Face& face, const bc::Waveform& course,
+  static Course course_of(bc::Waveform waveform) {
+    return [waveform = std::move(waveform)](double t) { return waveform.value(t); };
+  }
+  void prescribe(const distributed::Face& face, Course course,
                  const std::function<Vec3<double>(std::int32_t)>& velocity) {
-    const std::size_t waveform = b.waveforms_.size();
-    b.waveforms_.push_back(course);
-    hold_inner(face, [&](std::int32_t node) { b.prescribed_.push_back({node, velocity(node), waveform}); });
+    const std::size_t number = b.courses_.size();
+    b.courses_.push_back(std::move(course));
+    hold_inner(face, [&](std::int32_t node) { b.prescribed_.push_back({node, velocity(node), number}); });
   }
   void prescribe(const distributed::Face& face, const VectorField& velocity) {
     const std::size_t field = b.velocity_fields_.size();
@@ -144,16 +164,19 @@ struct Boundaries::Builder {
     for_each_node(mesh.faces[index], [&](std::int32_t node) { held[node].all(); });
   }
   void operator()(std::size_t index, const bc::Velocity& c) {
-    prescribe(mesh.faces[index], waveform(c.course), [&](std::int32_t) { return c.value; });
+    prescribe(mesh.faces[index], course_of(waveform(c.course)), [&](std::int32_t) { return c.value; });
   }
   void operator()(std::size_t index, const bc::Flow& c) {
     const WholeFace whole = gather_face(mesh, mesh.faces[index]);
     const auto marks = symmetry_marks(whole);
     const auto profile = parallel::agree(mesh.comm, [&] { return bc::inflow_profile(whole.mesh(), c.profile, marks); });
-    const auto flow = parallel::agree(mesh.comm, [&] { return bc::inflow(c); });
+    const auto own = std::find_if(inflows.begin(), inflows.end(),
+                                  [&](const auto& inflow) { return inflow.first == mesh.faces[index].name; });
+    Course flow =
+        own != inflows.end() ? own->second : course_of(parallel::agree(mesh.comm, [&] { return bc::inflow(c); }));
     parallel::agree(mesh.comm, [&] { require_upright(mesh.faces[index], profile.normal); });
-    b.inflows_.push_back({index, b.waveforms_.size()});
-    prescribe(mesh.faces[index], flow, [&](std::int32_t node) {
+    b.inflows_.push_back({index, b.courses_.size()});
+    prescribe(mesh.faces[index], std::move(flow), [&](std::int32_t node) {
       return profile.velocity(static_cast<std::size_t>(whole.find(mesh.global_ids[node])), 1.0);
     });
   }
@@ -258,7 +281,7 @@ struct Boundaries::Builder {
     if (c.table) {
       const auto table = parallel::agree(mesh.comm, [&] { return bc::PointTable(c); });
       if (table.steady())
-        prescribe(face, course, [&](std::int32_t node) { return table.velocity(mesh.points[node]); });
+        prescribe(face, course_of(course), [&](std::int32_t node) { return table.velocity(mesh.points[node]); });
       else
         prescribe(face,
                   [course, table](const Vec3<double>& x, double t) { return course.value(t) * table.velocity(x, t); });
@@ -312,7 +335,8 @@ struct Boundaries::Builder {
 Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly::BlockPattern& pattern,
                        const BoundaryInput& input)
     : mesh_(mesh), loads_(mesh, pattern, input.fluid) {
-  Builder builder(*this);
+  check_inflows(input);
+  Builder builder(*this, input);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) index_of[mesh.faces[f].name] = f;
   const auto apply = [&](auto wanted) {
@@ -391,7 +415,7 @@ void Boundaries::find_inflow_nodes() {
   inflow_profiles_.assign(at(mesh_.nodes()), 0.0);
   for (std::size_t k = 0; k < inflows_.size(); ++k)
     for (const auto& p : prescribed_) {
-      if (p.waveform != inflows_[k].waveform) continue;
+      if (p.course != inflows_[k].course) continue;
       for (int i = 0; i < 3; ++i) inflow_profiles_[at(p.node) + i] = p.velocity[i];
       inflow_profiles_[at(p.node) + 3] = static_cast<double>(k + 1);
     }
@@ -403,7 +427,7 @@ void Boundaries::find_inflow_nodes() {
 
 std::vector<Boundaries::FaceFlow> Boundaries::prescribed_flows(double t) const {
   std::vector<FaceFlow> flows;
-  for (const auto& inflow : inflows_) flows.push_back({inflow.face, -waveforms_[inflow.waveform].value(t)});
+  for (const auto& inflow : inflows_) flows.push_back({inflow.face, -courses_[inflow.course](t)});
   return flows;
 }
 
@@ -432,10 +456,10 @@ void Boundaries::scale_inflows(std::span<const FaceFlow> flows, double weight, c
 
 void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const {
   std::vector<double> values;
-  values.reserve(waveforms_.size());
-  for (const auto& waveform : waveforms_) values.push_back(waveform.value(t));
+  values.reserve(courses_.size());
+  for (const auto& course : courses_) values.push_back(course(t));
   for (const auto& p : prescribed_)
-    for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = values[p.waveform] * p.velocity[i];
+    for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = values[p.course] * p.velocity[i];
   for (const auto& p : field_nodes_) {
     const Vec3<double> v = p.allowed * velocity_fields_[p.field](mesh_.points[p.node], t);
     for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = v[i];

@@ -16,6 +16,9 @@
 
 namespace tunica::coupling {
 
+/// A value as a function of the time [s]. Called on all ranks alike, in the same order; gives all of them the same.
+using Course = std::function<double(double)>;
+
 /// A lumen face may have the condition `fixed` here, which then holds the velocity.
 struct BoundaryInput {
   std::vector<std::pair<std::string, bc::Condition>> conditions;  ///< face name, condition
@@ -27,6 +30,8 @@ struct BoundaryInput {
   std::vector<std::pair<std::string, VectorField>> velocity_fields;  ///< face, velocity at t_{n+1} [m/s]
   /// Face, traction [Pa] on the current face at t_{n+alpha_f}, interpolated between the nodes like the velocity.
   std::vector<std::pair<std::string, VectorField>> traction_fields;
+  /// Face with a condition `flow`, Q(t) [m^3/s] into the lumen in the place of what the condition says of it.
+  std::vector<std::pair<std::string, Course>> inflows{};
   /// Wall face, pressure [Pa] at its nodes [local node]: follows the deformed face, each triangle takes the mean of its
   /// nodes. Statics multiplies it by its load factor.
   std::vector<std::pair<std::string, std::vector<double>>> wall_pressures;
@@ -66,8 +71,8 @@ class Boundaries {
 
   struct PrescribedNode {
     std::int32_t node;
-    Vec3<double> velocity;  ///< per unit of the waveform
-    std::size_t waveform;
+    Vec3<double> velocity;  ///< per unit of the course
+    std::size_t course;
   };
 
   /// A face with a condition `flow`, and the flow out of the lumen through it [m^3/s].
@@ -110,7 +115,7 @@ class Boundaries {
   SurfaceLoads loads_;
   assembly::Constraints constraints_;
   std::vector<assembly::NodeConstraint> mesh_constraints_;
-  std::vector<bc::Waveform> waveforms_;
+  std::vector<Course> courses_;
   std::vector<PrescribedNode> prescribed_;
   std::vector<VectorField> velocity_fields_;
   std::vector<FieldNode> field_nodes_;
@@ -121,7 +126,7 @@ class Boundaries {
   std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_
   std::vector<std::int32_t> projector_of_;
   struct Inflow {
-    std::size_t face, waveform;
+    std::size_t face, course;
   };
   std::vector<Inflow> inflows_;
   std::vector<InflowNode> inflow_nodes_;

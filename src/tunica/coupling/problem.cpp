@@ -418,7 +418,7 @@ StepReport Problem::advance(State& state, double dt) {
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
     next.end_pressure[static_cast<std::size_t>(i)] =
         scheme.at_end(state.end_pressure[static_cast<std::size_t>(i)], next.velocity_pressure[at(i) + 3]);
-  state = std::move(next);
+  state = next;
   accepted_step_ = state.step;
   return report;
 }
@@ -444,7 +444,7 @@ StepReport Problem::solve_static(State& state, double factor) {
   interpolate_pressure(next);
   for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
     next.end_pressure[static_cast<std::size_t>(i)] = next.velocity_pressure[at(i) + 3];
-  state = std::move(next);
+  state = next;
   return report;
 }
 

@@ -11,6 +11,7 @@
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/artifacts/problem_input.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/case/table_ends.hpp"
 #include "tunica/distributed/results_writer.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -55,11 +56,11 @@ analysis::PostSettings post_settings(const case_file::Case& c) {
 
 }  // namespace
 
-ReadCase read_case(MPI_Comm comm, const fs::path& case_file) {
+ReadCase read_case(MPI_Comm comm, const fs::path& case_file, const std::optional<std::string>& text) {
   ReadCase c;
   parallel::on_root(comm, [&] {
-    c.text = config::read_text(case_file);
-    auto parsed = case_file::read_case(case_file);
+    c.text = text ? *text : config::read_text(case_file);
+    auto parsed = case_file::read_case(c.text, case_file);
     c.settings = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
     for (const auto& warning : artifacts::unusual_outlets(c.settings)) c.warnings.push_back(format(warning));
@@ -77,7 +78,9 @@ ReadCase read_case(MPI_Comm comm, const fs::path& case_file) {
 void PosedCase::pose(const ReadCase& c, MPI_Comm comm) {
   mesh = distributed::distribute(c.mesh.data, comm);
   distributed::check_region_names(mesh);
-  problem.emplace(mesh, artifacts::problem_input(c.settings));
+  auto input = artifacts::problem_input(c.settings);
+  input.boundary.inflows = c.inflows;
+  problem.emplace(mesh, input);
   lumens = analysis::find_lumens(mesh, case_file::describe(c.settings), post_settings(c.settings));
   monitors.emplace(*problem, lumens ? lumens->map : distributed::LumenMap{});
   fields.emplace(*problem, c.settings);

@@ -28,10 +28,14 @@ struct ReadCase {
   artifacts::Inputs inputs;  ///< on rank 0: what tells results of this case from those of another
   artifacts::CheckedMesh mesh;
   std::vector<std::string> warnings;  ///< on rank 0: of values in the case that look like slips
+  /// Of faces with a condition `flow`, in the place of what it says: BoundaryInput::inflows. On all ranks.
+  std::vector<std::pair<std::string, coupling::Course>> inflows{};
 };
 
-/// Case, mesh and tuned outlets. Throws InputError with all problems. Collective, as all here.
-ReadCase read_case(MPI_Comm comm, const std::filesystem::path& case_file);
+/// Case, mesh and tuned outlets. `text`: that of the case, where it does not stand in the file, from whose folder paths
+/// count all the same. Throws InputError with all problems. Collective, as all here.
+ReadCase read_case(MPI_Comm comm, const std::filesystem::path& case_file,
+                   const std::optional<std::string>& text = std::nullopt);
 
 /// The problem that a case poses on the ranks, before anything is computed. Stays where it is made.
 struct PosedCase {

@@ -18,6 +18,7 @@ namespace tunica::stages {
 
 struct RunRequest {
   std::filesystem::path case_file;
+  std::optional<std::string> case_text;               ///< where it does not stand in that file
   std::optional<std::filesystem::path> directory;     ///< of the results, instead of the one that the case names
   bool restart = false;                               ///< go on from the last checkpoint in the folder of results
   std::optional<std::filesystem::path> restart_file;  ///< go on from this checkpoint

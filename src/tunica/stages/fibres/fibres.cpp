@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/nearest.hpp"
 #include "tunica/files/atomic_file.hpp"
@@ -193,8 +194,8 @@ std::string fibres_to_files(const FibresRequest& request, MPI_Comm comm, const f
   case_file::FibresCase c;
   artifacts::CheckedMesh loaded;
   parallel::on_root(comm, [&] {
-    text = config::read_text(request.file);
-    auto parsed = case_file::read_fibres_case(request.file);
+    text = request.text ? *request.text : config::read_text(request.file);
+    auto parsed = case_file::read_fibres_case(text, request.file);
     for (const Problem& warning : parsed.warnings) say("warning: " + format(warning));
     c = std::move(parsed.value);
     if (request.output) c.output = *request.output;

@@ -33,6 +33,7 @@ MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh lo
 
 struct FibresRequest {
   std::filesystem::path file;
+  std::optional<std::string> text{};              ///< where it does not stand in that file
   std::optional<std::filesystem::path> output{};  ///< instead of the one in the file
   bool overwrite = false;
   std::function<void()> before_work = [] {};  ///< called on rank 0 once nothing stands in the way of the result

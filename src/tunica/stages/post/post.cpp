@@ -8,6 +8,7 @@
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/lock.hpp"
@@ -119,8 +120,8 @@ Post::Post(MPI_Comm comm, const PostRequest& request, std::FILE* screen)
 void Post::read() {
   std::string text;
   parallel::on_root(comm_, [&] {
-    text = config::read_text(request_.case_file);
-    auto parsed = case_file::read_case(request_.case_file);
+    text = request_.case_text ? *request_.case_text : config::read_text(request_.case_file);
+    auto parsed = case_file::read_case(text, request_.case_file);
     case_ = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) warnings_.push_back(format(warning));
     check_analysis(case_);

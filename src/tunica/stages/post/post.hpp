@@ -14,6 +14,7 @@ namespace tunica::stages::post {
 
 struct PostRequest {
   std::filesystem::path case_file;
+  std::optional<std::string> case_text;          ///< where it does not stand in that file
   std::optional<std::filesystem::path> results;  ///< folder that `tunica run` wrote, instead of the one in the case
   std::optional<std::filesystem::path> output;   ///< instead of the one in the case
   bool overwrite = false;                        ///< earlier files may be replaced

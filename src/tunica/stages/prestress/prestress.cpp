@@ -15,6 +15,7 @@
 #include "tunica/base/digits.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/case/table_ends.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"
@@ -187,8 +188,8 @@ PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::
 // The prestress and the state that the case may name for its run are not read: this makes them.
 void PrestressRun::read() {
   parallel::on_root(comm_, [&] {
-    text_ = config::read_text(request_.case_file);
-    auto parsed = case_file::read_case(request_.case_file);
+    text_ = request_.case_text ? *request_.case_text : config::read_text(request_.case_file);
+    auto parsed = case_file::read_case(text_, request_.case_file);
     case_ = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) whole_.warnings.push_back(format(warning));
     if (!case_.prestress)

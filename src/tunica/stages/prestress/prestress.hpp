@@ -17,6 +17,7 @@ namespace tunica::stages {
 
 struct PrestressRequest {
   std::filesystem::path case_file;
+  std::optional<std::string> case_text;            ///< where it does not stand in that file
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results in the folder may be replaced
   /// The steady flow in the folder is taken as it is. One that was interrupted goes on, and so does one whose last

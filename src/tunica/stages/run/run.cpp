@@ -27,6 +27,7 @@
 #include "tunica/stages/run/adaptive_steps.hpp"
 #include "tunica/stages/run/cycles.hpp"
 #include "tunica/stages/run/restart.hpp"
+#include "tunica/stages/run/simulation.hpp"
 
 namespace tunica::stages {
 
@@ -43,15 +44,37 @@ constexpr double longest_without_checkpoint = 120;
 
 std::string plural(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
+}  // namespace
+
 /// One run from its first to its last step. Its member functions are collective.
 class Run {
  public:
   Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen);
-  /// The run to its end, or to another end that leaves a state: histories, checkpoint, status.
-  RunOutcome steps();
+  bool step();
+  RunOutcome finish();
+  fs::path checkpoint();
+  bool ended() const { return ended_; }
+  std::int64_t steps() const { return grid_.steps_done(); }
+  /// Of this call, which may be asked to stop earlier.
+  std::int64_t end_step() const { return std::min(last_step(), request_.until.value_or(last_step())); }
+  double time() const { return grid_.time(); }
+  const artifacts::StepHistory& last() const { return last_; }
+  const coupling::State& state() const { return state_; }
+  const distributed::DistributedMesh& mesh() const { return mesh_; }
+  const fs::path& folder() const { return folder_; }
+  const OutletModel& outlet(const std::string& face) const;
+  void set_outlet(const std::string& face, const OutletModel& model);
 
  private:
-  RunOutcome compute();
+  std::size_t find_outlet(const std::string& face) const;
+  /// Runs `action`; an error that it throws ends the run.
+  template <class Action>
+  auto guarded(const Action& action);
+  void refuse_after_end() const;
+  void begin();
+  bool left() const { return signal_ == 0 && !periodic_ && grid_.steps_done() < end_step(); }
+  void take_and_write();
+  void end();
   void end_failed(const std::string& message);
   void end_alone(const std::string& message);
   fs::path checkpoint_folder() const { return folder_ / "checkpoints"; }
@@ -60,8 +83,6 @@ class Run {
   bool at_end() const { return case_.output.instant == case_file::Instant::end; }
   bool continued() const { return request_.restart || request_.restart_file; }
   std::int64_t last_step() const;
-  /// Of this call, which may be asked to stop earlier.
-  std::int64_t end_step() const { return std::min(last_step(), request_.until.value_or(last_step())); }
   artifacts::StepGrid make_grid(const artifacts::StepGrid::Position* position) const;
 
   void prepare_folder();
@@ -135,6 +156,13 @@ class Run {
   bool state_is_whole_ = true;          ///< the state belongs to one instant, and the histories reach up to it
   std::optional<parallel::Progress> bar_;
   bool told_dissipation_ = false;
+  std::vector<OutletModel> outlet_models_;  ///< of state_.outlets
+  artifacts::StepHistory last_{.step = -1, .record = {}, .report = {}};
+  bool begun_ = false, nothing_to_do_ = false, periodic_ = false, ended_ = false;
+  int signal_ = 0;               ///< that ends the run
+  double saved_ = 0;             ///< when the last checkpoint was written [s]
+  double begun_at_ = 0;          ///< s
+  std::int64_t first_step_ = 0;  ///< steps that were done when it began
 };
 
 Run::Run(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen)
@@ -225,6 +253,12 @@ void Run::prepare_folder() {
 void Run::pose() {
   posed_.pose(input_, comm_);
   state_ = problem_->initial_state();
+  for (const auto& outlet : state_.outlets)
+    for (const auto& [face, condition] : case_.boundary) {
+      if (face != outlet.face()) continue;
+      if (const auto* rcr = std::get_if<bc::Rcr>(&condition)) outlet_models_.emplace_back(*rcr);
+      if (const auto* resistance = std::get_if<bc::Resistance>(&condition)) outlet_models_.emplace_back(*resistance);
+    }
   if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
   if (case_.start && !continued()) start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
 }
@@ -235,6 +269,8 @@ void Run::describe_problem() {
   for (const auto& line : problem_->notes()) log_->detail(line);
   log_->info(fmt::format("{} to t = {}, into {}; every step is told in run.log", plural(end_step(), "step"),
                          time_text(planned_time()), folder_.string()));
+  for (const auto& inflow : input_.inflows)
+    log_->info(fmt::format("inflow of {}: a function of the program that runs this", inflow.first));
   if (case_.start && !continued()) log_->info(fmt::format("starting from {}", case_.start->string()));
 }
 
@@ -384,17 +420,17 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
     ++state_.step;
   else
     state_.time = grid_.time();
-  artifacts::StepHistory history{
+  last_ = {
       .step = state_.step, .time = grid_.time(), .dt = dt, .evaluated = grid_.time(), .record = {}, .report = report};
   if (!is_static())
-    history.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
-  history.record = monitors_->evaluate(is_static() ? 0.0 : dt);
-  if (at_end()) history.faces_at_end = monitors_->faces_at_end(state_);
-  history.points = posed_.probes->evaluate(at_end() ? coupling::with_end_pressure(state_) : state_);
+    last_.evaluated = start + assembly::TimeScheme::generalised_alpha(dt, case_.time->rho_infinity).alpha_f * dt;
+  last_.record = monitors_->evaluate(is_static() ? 0.0 : dt);
+  if (at_end()) last_.faces_at_end = monitors_->faces_at_end(state_);
+  last_.points = posed_.probes->evaluate(at_end() ? coupling::with_end_pressure(state_) : state_);
   on_disk([&] {
     parallel::on_root(comm_, [&] {
-      histories_->append(history, state_.outlets);
-      if (lumen_histories_) lumen_histories_->append(history.step, history.evaluated, *history.record.lumens);
+      histories_->append(last_, state_.outlets);
+      if (lumen_histories_) lumen_histories_->append(last_.step, last_.evaluated, *last_.record.lumens);
     });
   });
   state_is_whole_ = true;
@@ -407,7 +443,7 @@ void Run::accepted(const StepReport& report, double dt, int wanted_level) {
   p.timings.linear += report.timings.linear;
   p.timings.mesh += report.timings.mesh;
   p.timings.total += report.timings.total;
-  log_->detail(step_line(report, dt) + tears_text(history.record));
+  log_->detail(step_line(report, dt) + tears_text(last_.record));
 }
 
 void Run::rejected(const StepReport& report) {
@@ -437,6 +473,7 @@ void Run::judge(const StepReport& report, const coupling::State& before, double 
 }
 
 bool Run::take_step() {
+  const auto done = grid_.steps_done();
   do {
     if (parallel::stop_requested(comm_) != 0) return false;
     const double dt = grid_.next_step();
@@ -449,7 +486,7 @@ bool Run::take_step() {
       judge(report, before, dt);
     else
       accepted(report, dt, 0);
-  } while (!grid_.on_grid());
+  } while (!grid_.on_grid() || grid_.steps_done() == done);
   return true;
 }
 
@@ -568,6 +605,7 @@ void Run::end_failed(const std::string& message) {
     }
   };
   bar_.reset();
+  ended_ = true;
   if (state_is_whole_) try_to("no checkpoint of the last step", [&] { save(); });
   try_to("the manifest does not tell the end of the run", [&] { record("failed", message); });
   log_->note_error(message);
@@ -576,6 +614,7 @@ void Run::end_failed(const std::string& message) {
 // An error that the other ranks may not know of: no rank waits for another.
 void Run::end_alone(const std::string& message) {
   if (parallel::size(comm_) == 1) return end_failed(message);
+  ended_ = true;
   try {
     artifacts::record_end(folder_, "failed", message);
   } catch (const std::exception&) {
@@ -583,9 +622,10 @@ void Run::end_alone(const std::string& message) {
   }
 }
 
-RunOutcome Run::steps() {
+template <class Action>
+auto Run::guarded(const Action& action) {
   try {
-    return compute();
+    return action();
   } catch (const InputError& error) {
     end_failed(error.what());
     throw;
@@ -604,68 +644,168 @@ RunOutcome Run::steps() {
   }
 }
 
-RunOutcome Run::compute() {
+void Run::refuse_after_end() const {
+  if (ended_)
+    throw InputError(folder_.string(), "holds a run that has ended", "go on from its last checkpoint by a restart");
+}
+
+bool Run::step() {
+  refuse_after_end();
+  return guarded([&] {
+    begin();
+    if (!left()) return false;
+    const auto done = grid_.steps_done();
+    take_and_write();
+    return grid_.steps_done() > done;
+  });
+}
+
+RunOutcome Run::finish() {
+  if (!ended_)
+    guarded([&] {
+      begin();
+      end();
+    });
+  return {.signal = signal_, .steps = grid_.steps_done()};
+}
+
+fs::path Run::checkpoint() {
+  refuse_after_end();
+  guarded([&] {
+    begin();
+    save();
+    saved_ = MPI_Wtime();
+  });
+  return last_checkpoint_;
+}
+
+void Run::begin() {
+  if (begun_) return;
+  begun_ = true;
   const std::int64_t end = end_step();
-  RunOutcome outcome;
-  bool periodic = at_cycle_end() && finish_cycle(false);
-  if (periodic || grid_.steps_done() >= end) {
-    log_->info(periodic
+  periodic_ = at_cycle_end() && finish_cycle(false);
+  nothing_to_do_ = !left();
+  saved_ = begun_at_ = MPI_Wtime();
+  if (nothing_to_do_) {
+    log_->info(periodic_
                    ? std::string("nothing to do: the run is periodic")
                    : fmt::format("nothing to do: {} of {} are completed", grid_.steps_done(), plural(end, "step")));
-    tell_dissipation_of_run();
-    record("completed", "");
-    return {.signal = 0, .steps = grid_.steps_done()};
+    return;
   }
   if (grid_.steps_done() == 0 && grid_.on_grid()) write_fields();
-  double saved = MPI_Wtime();
-  const double begun = saved;
-  const std::int64_t begun_at = grid_.steps_done();
+  first_step_ = grid_.steps_done();
   bar_.emplace(*log_, "run", static_cast<double>(grid_.steps_done()), static_cast<double>(end));
-  while (grid_.steps_done() < end && !periodic) {
-    const auto done = grid_.steps_done();
-    if (!take_step()) {
-      outcome.signal = parallel::stop_requested(comm_);
-      break;
-    }
-    if (grid_.steps_done() % case_.output.every == 0) write_fields();
-    const bool overdue = parallel::any(comm_, MPI_Wtime() - saved > longest_without_checkpoint);
-    if (grid_.steps_done() % case_.output.checkpoint_every == 0 || overdue) {
-      save();
-      saved = MPI_Wtime();
-    }
-    if (grid_.steps_done() > done && at_cycle_end()) periodic = finish_cycle(true);
-    bar_->update(static_cast<double>(grid_.steps_done()), progress_note(end, MPI_Wtime() - begun, begun_at));
+}
+
+void Run::take_and_write() {
+  const std::int64_t end = end_step();
+  if (!take_step()) {
+    signal_ = parallel::stop_requested(comm_);
+    return;
   }
+  if (grid_.steps_done() % case_.output.every == 0) write_fields();
+  const bool overdue = parallel::any(comm_, MPI_Wtime() - saved_ > longest_without_checkpoint);
+  if (grid_.steps_done() % case_.output.checkpoint_every == 0 || overdue) {
+    save();
+    saved_ = MPI_Wtime();
+  }
+  if (at_cycle_end()) periodic_ = finish_cycle(true);
+  bar_->update(static_cast<double>(grid_.steps_done()), progress_note(end, MPI_Wtime() - begun_at_, first_step_));
+}
+
+void Run::end() {
   bar_.reset();
-  if (outcome.signal == 0) write_fields();
-  save();
+  const bool stopped = left() || signal_ != 0;
+  if (!nothing_to_do_) {
+    if (signal_ == 0 && grid_.on_grid()) write_fields();
+    save();
+  }
   tell_dissipation_of_run();
-  outcome.steps = grid_.steps_done();
-  record(outcome.signal == 0 ? "completed" : "stopped",
-         outcome.signal == 0 ? (periodic ? "periodic" : "") : fmt::format("signal {}", outcome.signal));
-  if (outcome.signal != 0) {
+  ended_ = true;
+  record(stopped ? "stopped" : "completed", signal_ != 0                   ? fmt::format("signal {}", signal_)
+                                            : stopped                      ? "by the program that ran it"
+                                            : periodic_ && !nothing_to_do_ ? "periodic"
+                                                                           : "");
+  if (nothing_to_do_) return;
+  if (stopped) {
     const std::string resume = request_.resume.empty() ? command("--restart") : request_.resume;
-    log_->warning(fmt::format("stopped by SIG{} after {}, t = {}; nothing is lost. To continue:\n  {}",
-                              sigabbrev_np(outcome.signal), plural(outcome.steps, "step"), time_text(grid_.time()),
-                              resume));
+    const std::string by = signal_ != 0 ? fmt::format("stopped by SIG{}", sigabbrev_np(signal_)) : "stopped";
+    log_->warning(fmt::format("{} after {}, t = {}; nothing is lost. To continue:\n  {}", by,
+                              plural(grid_.steps_done(), "step"), time_text(grid_.time()), resume));
   } else {
     tell_answer();
     log_->info(fmt::format("{} in {:.1f} s ({:.1f} s set-up), {:.0f} MB of memory; results in {}",
                            plural(grid_.steps_done(), "step"), progress_.total_seconds, progress_.set_up_seconds,
                            progress_.peak_memory / 1e6, folder_.string()));
   }
-  return outcome;
 }
 
-}  // namespace
+std::size_t Run::find_outlet(const std::string& face) const {
+  std::string names;
+  for (std::size_t k = 0; k < state_.outlets.size(); ++k) {
+    if (state_.outlets[k].face() == face) return k;
+    names += (k == 0 ? "" : ", ") + state_.outlets[k].face();
+  }
+  throw InputError("outlet " + face, "the case has no resistance and no Windkessel on a face of this name",
+                   names.empty() ? "give a face the condition `rcr` or `resistance`" : "name one of: " + names);
+}
+
+const OutletModel& Run::outlet(const std::string& face) const { return outlet_models_[find_outlet(face)]; }
+
+void Run::set_outlet(const std::string& face, const OutletModel& model) {
+  refuse_after_end();
+  const std::size_t k = find_outlet(face);
+  const bool resistances = std::holds_alternative<bc::Resistance>(model);
+  if (model.index() != outlet_models_[k].index())
+    throw InputError("outlet " + face,
+                     resistances ? "is a Windkessel, and is given the parameters of a resistance"
+                                 : "is a resistance, and is given the parameters of a Windkessel",
+                     "keep the kind of outlet that the case has");
+  bc::Outlet changed(face, model);
+  if (resistances)
+    changed.set_initial_flow(state_.outlets[k].flow());  // it stores nothing
+  else
+    changed.restore(state_.outlets[k].state());
+  state_.outlets[k] = std::move(changed);
+  outlet_models_[k] = model;
+  const auto* rcr = std::get_if<bc::Rcr>(&model);
+  const auto* resistance = std::get_if<bc::Resistance>(&model);
+  log_->info(fmt::format(
+      "from t = {} on, outlet {}: {}", time_text(grid_.time()), face,
+      rcr ? fmt::format("proximal {:.6g} Pa s/m^3, capacitance {:.6g} m^3/Pa, distal {:.6g} Pa s/m^3, distal pressure "
+                        "{:.6g} Pa",
+                        rcr->proximal, rcr->capacitance, rcr->distal, rcr->distal_pressure)
+          : fmt::format("resistance {:.6g} Pa s/m^3, distal pressure {:.6g} Pa", resistance->resistance,
+                        resistance->distal_pressure)));
+}
+
+Simulation::Simulation(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen)
+    : run_(std::make_unique<Run>(c, request, comm, screen)) {}
+Simulation::~Simulation() = default;
+bool Simulation::step() { return run_->step(); }
+RunOutcome Simulation::finish() { return run_->finish(); }
+fs::path Simulation::checkpoint() { return run_->checkpoint(); }
+bool Simulation::finished() const { return run_->ended(); }
+std::int64_t Simulation::steps() const { return run_->steps(); }
+std::int64_t Simulation::steps_asked() const { return run_->end_step(); }
+double Simulation::time() const { return run_->time(); }
+const artifacts::StepHistory& Simulation::last() const { return run_->last(); }
+const coupling::State& Simulation::state() const { return run_->state(); }
+const distributed::DistributedMesh& Simulation::mesh() const { return run_->mesh(); }
+fs::path Simulation::folder() const { return run_->folder(); }
+OutletModel Simulation::outlet(const std::string& face) const { return run_->outlet(face); }
+void Simulation::set_outlet(const std::string& face, const OutletModel& model) { run_->set_outlet(face, model); }
 
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
   const parallel::StopSignals signals;  // one that comes while the run is prepared ends it before the first step
-  return Run(c, request, comm, screen).steps();
+  Simulation simulation(c, request, comm, screen);
+  while (simulation.step()) {
+  }
+  return simulation.finish();
 }
 
 RunOutcome run(MPI_Comm comm, const RunRequest& request, std::FILE* screen) {
-  return run_case(read_case(comm, request.case_file), request, comm, screen);
+  return run_case(read_case(comm, request.case_file, request.case_text), request, comm, screen);
 }
 
 RunCheck check_run(MPI_Comm comm, const fs::path& case_file) {

@@ -9,6 +9,7 @@
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/artifacts/run_folder.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/case/case_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
@@ -147,8 +148,8 @@ Tuning::Tuning(MPI_Comm comm, const TuneRequest& request, std::FILE* screen)
 
 void Tuning::read() {
   parallel::on_root(comm_, [&] {
-    case_.text = config::read_text(request_.case_file);
-    auto parsed = case_file::read_case(request_.case_file);
+    case_.text = request_.case_text ? *request_.case_text : config::read_text(request_.case_file);
+    auto parsed = case_file::read_case(case_.text, request_.case_file);
     case_.settings = std::move(parsed.value);
     for (const auto& warning : parsed.warnings) case_.warnings.push_back(format(warning));
     if (!case_.settings.outlets)

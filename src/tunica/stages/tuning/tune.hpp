@@ -19,6 +19,7 @@ namespace tunica::stages {
 
 struct TuneRequest {
   std::filesystem::path case_file;
+  std::optional<std::string> case_text;            ///< where it does not stand in that file
   std::optional<std::filesystem::path> directory;  ///< of the results, instead of the one that the case names
   bool overwrite = false;                          ///< results of another case in the folder may be replaced
   artifacts::ProgramVersion program;
