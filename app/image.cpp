@@ -1,8 +1,10 @@
-// tunica image: the idealised dissection as a segmented scan.
+// tunica image: the idealised dissection as a segmented scan; with --flow a computed beat as velocity images.
 #include <cstdio>
+#include <memory>
 
 #include "commands.hpp"
 #include "file_command.hpp"
+#include "flow_image.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
 
 namespace tunica::app {
@@ -21,17 +23,24 @@ void image(const FileRequest& request) {
 
 void add_image(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("image", "Write the idealised dissection as a labelled image, with the noise of a scanner");
+      app.add_subcommand("image", "Write the idealised dissection as a labelled image, or a computed beat as 4D flow");
   command->footer(
       "Example of a file; `tunica schema --image` prints the reference:\n"
       "  parametric: {flap: {thickness: 1.75 mm}}\n"
       "  scan: {voxel: 0.7 mm, noise: 0.1}\n"
-      "  output: dissection.nrrd");
+      "  output: dissection.nrrd\n"
+      "and with --flow (`tunica schema --flow-image`):\n"
+      "  case: out/dissection/run/case.yaml\n"
+      "  period: 0.78 s\n"
+      "  scan: {voxel: 2 mm, frames: 25, encoding: 150 cm/s, signal_to_noise: 10}\n"
+      "  output: flow_images");
+  const auto flow = std::make_shared<bool>(false);
+  command->add_flag("--flow", *flow, "Velocity images (phase-contrast MRI) of a beat that was computed");
   add_file_arguments(*command,
                      {.file = "What is imaged, and how",
-                      .output = "The image, instead of the one that the file names",
-                      .overwrite = "Replace an image that is there"},
-                     image);
+                      .output = "The image or the folder of the images, instead of the one that the file names",
+                      .overwrite = "Replace images that are there"},
+                     [flow](const FileRequest& request) { *flow ? flow_image(request) : image(request); });
 }
 
 }  // namespace tunica::app
