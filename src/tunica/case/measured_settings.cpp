@@ -47,7 +47,7 @@ Schema<Measurement> measurement_schema(const MeasurementKind& kind, const config
       .quantity("uncertainty", &Measurement::uncertainty, due, config::above(0), "One standard deviation");
   return schema.check([kind, places](const Measurement& m, Problems& problems) {
     if (m.opening.has_value() + m.point.has_value() + m.plane.has_value() != 1)
-      problems.add("", "names no place, or several", "give one of: " + fmt::format("{}", fmt::join(places, ", ")));
+      problems.add("", "names no place, or several", "give one of: " + files::listed({places.begin(), places.end()}));
     const bool values = m.largest || m.smallest || m.mean;
     if (values == m.curve.has_value())
       problems.add("", values ? "has single values and a curve" : "has no value",

@@ -45,9 +45,9 @@ NodalCourse profile_at_nodes(const VelocitySeries& series, const ProfileFit& fit
                              std::span<const double> outflow) {
   const auto unit = bc::inflow_profile(opening.face(), bc::Profile::parabolic);  // checks the face as well
   const auto rim = bc::rim_nodes(opening.face());
-  std::vector<std::vector<double>> weights;
+  std::vector<ProfileFit::Weights> weights;
   for (std::size_t n = 0; n < opening.points.size(); ++n)
-    weights.push_back(rim[n] ? std::vector<double>{} : fit.weights_at(opening.points[n]));
+    weights.push_back(rim[n] ? ProfileFit::Weights{} : fit.weights_at(opening.points[n]));
   NodalCourse course{.times = series.times, .period = series.period, .velocity = {}};
   for (std::size_t frame = 0; frame < series.frames(); ++frame) {
     auto& v = course.velocity.emplace_back(opening.points.size(), Vec3<double>{});

@@ -16,7 +16,8 @@ namespace {
 constexpr double along = 3;          ///< correlation length along the normal over that in the plane
 constexpr double least_share = 0.5;  ///< of a voxel that lies in the section's column
 constexpr std::size_t least_voxels = 6, most_voxels = 1500;
-constexpr double held = 1e-3;  ///< deviation of the velocity on the rim over that of the profile
+constexpr double least_noise = 1e-6;  ///< variance over that of the profile
+constexpr double held = 1e-3;         ///< deviation of the velocity on the rim over that of the profile
 
 /// Matern's function of smoothness 5/2.
 double matern(double distance, double length) {
@@ -79,7 +80,9 @@ ProfileFit::ProfileFit(const VelocitySeries& series, const LumenVoxels& lumen, c
                     least_voxels),
         "leave it out: it is too narrow for these images, or lies beyond them; or bring mesh and images "
         "into the same coordinates");
-  factorise();
+  find_variances();
+  place_rim();
+  prepare();
 }
 
 /// Voxels of which at least half lies in the column over the section, and nothing in another part of the lumen.
@@ -130,31 +133,46 @@ void ProfileFit::gather(const LumenVoxels& lumen, double slab) {
   }
 }
 
-double ProfileFit::covariance(const std::array<double, 3>& a, const std::array<double, 3>& b) const {
+double ProfileFit::correlation(const std::array<double, 3>& a, const std::array<double, 3>& b) const {
   const double x = a[0] - b[0], y = a[1] - b[1], z = (a[2] - b[2]) / (along * length_);
-  return variance_ * matern(std::sqrt(x * x + y * y), length_) * std::exp(-0.5 * z * z);
+  return matern(std::sqrt(x * x + y * y), length_) * std::exp(-0.5 * z * z);
 }
 
-double ProfileFit::covariance(const Observation& o, const std::array<double, 3>& at) const {
-  double sum = 0;
-  for (const auto& part : o.parts) sum += part.weight * covariance(part.at, at);
-  return sum;
+double ProfileFit::correlation(const Observation& o, const std::array<double, 3>& at) const {
+  double result = 0;
+  for (const auto& part : o.parts) result += part.weight * correlation(part.at, at);
+  return result;
 }
 
-void ProfileFit::factorise() {
-  // Size of the profile: mean square of the frame with most.
-  for (std::size_t frame = 0; frame < series_.frames(); ++frame) {
-    double squares = 0;
-    for (const auto& o : observations_)
-      for (const auto& component : series_.velocity[frame]) {
-        const double v = static_cast<double>(component[static_cast<std::size_t>(o.voxel)]);
-        squares += v * v / static_cast<double>(observations_.size());
-      }
-    variance_ = std::max(variance_, squares);
+/// With all observations, and with the rim after them.
+std::vector<double> ProfileFit::correlations(const std::array<double, 3>& at) const {
+  std::vector<double> result;
+  for (const auto& o : observations_) result.push_back(correlation(o, at));
+  for (const auto& r : rim_) result.push_back(correlation(r, at));
+  return result;
+}
+
+/// Mean squares over voxels and frames, less those of the noise.
+void ProfileFit::find_variances() {
+  double noise = 0, axial = 0, all = 0;
+  const auto count = static_cast<double>(observations_.size() * series_.frames());
+  for (const auto& o : observations_) {
+    noise += o.deviation * o.deviation / static_cast<double>(observations_.size());
+    for (const auto& of_frame : series_.velocity) {
+      Vec3<double> v{};
+      for (int d = 0; d < 3; ++d)
+        v[d] = static_cast<double>(of_frame[static_cast<std::size_t>(d)][static_cast<std::size_t>(o.voxel)]);
+      axial += std::pow(dot(section_.normal, v), 2) / count;
+      all += dot(v, v) / count;
+    }
   }
-  double noise = 0;
-  for (const auto& o : observations_) noise = std::max(noise, o.deviation);
-  variance_ = std::max({variance_, noise * noise, 1e-12});
+  constexpr double least = 1e-2;  // of the noise: no matrix without a diagonal
+  along_ = std::max({axial - noise, least * noise, 1e-12});
+  across_ = std::max({0.5 * (all - axial) - noise, least * noise, 1e-12});
+}
+
+/// Places on the rim a fifth of the correlation length apart.
+void ProfileFit::place_rim() {
   for (const auto& edge : section_.rim) {
     const auto a = section_.points[static_cast<std::size_t>(edge[0])],
                b = section_.points[static_cast<std::size_t>(edge[1])];
@@ -167,52 +185,65 @@ void ProfileFit::factorise() {
       if (!near) rim_.push_back({p[0], p[1], 0.0});
     }
   }
+}
+
+/// Of the correlations, with the noise in units of the variance of the profile.
+std::shared_ptr<const ProfileFit::Factor> ProfileFit::factorised(double variance) const {
   const auto n = observations_.size(), all = n + rim_.size();
-  auto factor = std::make_shared<Factor>(Factor{dense::Matrix(all, all)});
+  auto factor = std::make_shared<Factor>(Factor{correlations_});
+  for (std::size_t i = 0; i < all; ++i)
+    factor->lower(i, i) +=
+        i < n ? std::max(std::pow(observations_[i].deviation, 2) / variance, least_noise) : held * held;
+  dense::factorise(factor->lower, "profile of " + section_.name);
+  return factor;
+}
+
+void ProfileFit::prepare() {
+  const auto n = observations_.size(), all = n + rim_.size();
+  correlations_ = dense::Matrix(all, all);
   for (std::size_t i = 0; i < all; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       double c = 0;
       if (i < n)
-        for (const auto& part : observations_[i].parts) c += part.weight * covariance(observations_[j], part.at);
+        for (const auto& part : observations_[i].parts) c += part.weight * correlation(observations_[j], part.at);
       else
-        c = j < n ? covariance(observations_[j], rim_[i - n]) : covariance(rim_[i - n], rim_[j - n]);
-      if (i == j)
-        c += i < n ? std::max(std::pow(observations_[i].deviation, 2), 1e-8 * variance_) : held * held * variance_;
-      factor->lower(i, j) = c;
+        c = j < n ? correlation(observations_[j], rim_[i - n]) : correlation(rim_[i - n], rim_[j - n]);
+      correlations_(i, j) = c;
     }
-  dense::factorise(factor->lower, "profile of " + section_.name);
-  factor_ = factor;
+  factor_along_ = factorised(along_);
+  factor_across_ = factorised(across_);
   std::vector<double> right(all, 0.0);
   for (const auto& [x, area] : quadrature(section_)) {
     const auto p = column_.plane(x);
-    const std::array<double, 3> at{p[0], p[1], 0.0};
-    for (std::size_t i = 0; i < n; ++i) right[i] += area * covariance(observations_[i], at);
-    for (std::size_t i = n; i < all; ++i) right[i] += area * covariance(rim_[i - n], at);
+    const auto c = correlations({p[0], p[1], 0.0});
+    for (std::size_t i = 0; i < all; ++i) right[i] += area * c[i];
   }
-  flow_weights_ = solved(std::move(right));
+  flow_weights_ = solved(*factor_along_, std::move(right));
   for (std::size_t i = 0; i < n; ++i) flow_deviation_ += std::pow(flow_weights_[i] * observations_[i].deviation, 2);
   flow_deviation_ = std::sqrt(flow_deviation_);
 }
 
 /// Weights of the voxels alone: on the rim the velocity is zero.
-std::vector<double> ProfileFit::solved(std::vector<double> right) const {
-  dense::solve(factor_->lower, right);
+std::vector<double> ProfileFit::solved(const Factor& factor, std::vector<double> right) const {
+  dense::solve(factor.lower, right);
   right.resize(observations_.size());
   return right;
 }
 
-double ProfileFit::flow(std::size_t frame) const { return dot(section_.normal, velocity(frame, flow_weights_)); }
+double ProfileFit::flow(std::size_t frame) const { return dot(section_.normal, sum(frame, flow_weights_)); }
 
-std::vector<double> ProfileFit::weights_at(const Vec3<double>& place) const {
+ProfileFit::Weights ProfileFit::weights_at(const Vec3<double>& place) const {
   const auto p = column_.plane(place);
-  const std::array<double, 3> at{p[0], p[1], 0.0};
-  std::vector<double> right;
-  for (const auto& o : observations_) right.push_back(covariance(o, at));
-  for (const auto& r : rim_) right.push_back(covariance(r, at));
-  return solved(std::move(right));
+  const auto right = correlations({p[0], p[1], 0.0});
+  return {solved(*factor_along_, right), solved(*factor_across_, right)};
 }
 
-Vec3<double> ProfileFit::velocity(std::size_t frame, std::span<const double> weights) const {
+Vec3<double> ProfileFit::velocity(std::size_t frame, const Weights& weights) const {
+  const auto along_normal = sum(frame, weights.along), rest = sum(frame, weights.across);
+  return rest + dot(section_.normal, along_normal - rest) * section_.normal;
+}
+
+Vec3<double> ProfileFit::sum(std::size_t frame, std::span<const double> weights) const {
   Vec3<double> v{};
   for (std::size_t i = 0; i < observations_.size(); ++i)
     for (int d = 0; d < 3; ++d)

@@ -24,23 +24,6 @@ bool matches(const std::string& pattern, const std::string& name) {
   return name.size() >= head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
 }
 
-/// Files that a name stands for.
-std::vector<std::string> files_of(const fs::path& path, const std::string& where) {
-  const std::string pattern = path.filename().string();
-  const auto star = pattern.find('*');
-  if (star == std::string::npos) return {path.string()};
-  if (pattern.find('*', star + 1) != std::string::npos)
-    throw InputError(where, fmt::format("{} has more than one *", pattern), "write one * in place of the number");
-  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-  std::error_code error;
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (matches(pattern, entry.path().filename().string())) found.push_back(entry.path().string());
-  if (found.empty())
-    throw InputError(where, fmt::format("no file is named like {}", path.string()), "check folder and name");
-  return in_order_of_numbers(std::move(found), where);
-}
-
 void require_same_voxels(const ImageFrame& a, const ImageFrame& b, const std::string& first,
                          const std::string& second) {
   bool same = a.size == b.size;
@@ -56,7 +39,8 @@ void require_same_voxels(const ImageFrame& a, const ImageFrame& b, const std::st
 /// file that has components after the times those of one component, its number first.
 class FrameReader {
  public:
-  FrameReader(const fs::path& path, std::string where) : where_(std::move(where)), files_(files_of(path, where_)) {}
+  FrameReader(const fs::path& path, std::string where)
+      : where_(std::move(where)), files_(files_of_frames(path, where_)) {}
 
   const std::vector<std::string>& files() const { return files_; }
   template <class Take>
@@ -149,6 +133,22 @@ Schema<SeriesFiles> SeriesFiles::schema() {
                   "Of the components, where a scanner turns them")
       .by_default("[1, 1, 1]")
       .check(check_files);
+}
+
+std::vector<std::string> files_of_frames(const fs::path& path, const std::string& where) {
+  const std::string pattern = path.filename().string();
+  const auto star = pattern.find('*');
+  if (star == std::string::npos) return {path.string()};
+  if (pattern.find('*', star + 1) != std::string::npos)
+    throw InputError(where, fmt::format("{} has more than one *", pattern), "write one * in place of the number");
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  std::error_code error;
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (matches(pattern, entry.path().filename().string())) found.push_back(entry.path().string());
+  if (found.empty())
+    throw InputError(where, fmt::format("no file is named like {}", path.string()), "check folder and name");
+  return in_order_of_numbers(std::move(found), where);
 }
 
 VelocitySeries read_series(const SeriesFiles& files, const std::string& where) {

@@ -83,6 +83,7 @@ TEST(Flow, WrappedVelocitiesAreUnwrapped) {
   const TubeFlow tube;
   PhaseContrast scan;
   scan.encoding = 0.3;
+  scan.frames = 12;
   scan.signal_to_noise = 40;
   auto wrapped = tube.imaged(scan), clear = wrapped;
   scan.encoding = 1;
@@ -98,11 +99,12 @@ TEST(Flow, ProfileOfInletIsZeroOnTheRimCarriesTheFlowAndFollowsTheTruth) {
   const TubeFlow tube;
   PhaseContrast scan;
   scan.encoding = 0.7;
+  scan.frames = 12;
   const auto m = measured(tube, scan);
   const auto& face = tube.mesh.faces.front();
   ASSERT_EQ(face.name, "lumen_inlet");
   const auto section = opening_section(tube.mesh, face);
-  const ProfileFit fit(m.series, m.lumen, section, m.noise, {});
+  const ProfileFit fit(m.series, m.lumen, section, m.noise, {.length = tube.radius, .slab = 4});
   const auto opening = opening_mesh(tube.mesh, face);
   std::vector<double> outflow;
   for (std::size_t k = 0; k < m.series.frames(); ++k) outflow.push_back(fit.flow(k));
@@ -126,7 +128,7 @@ TEST(Flow, ProfileOfInletIsZeroOnTheRimCarriesTheFlowAndFollowsTheTruth) {
   const auto fine = resampled(course, 100);
   ASSERT_EQ(fine.times.size(), 100U);
   for (std::size_t n = 0; n < opening.points.size(); ++n)
-    EXPECT_NEAR(fine.velocity[4][n][2], course.velocity[1][n][2], 1e-12);
+    EXPECT_NEAR(fine.velocity[25][n][2], course.velocity[3][n][2], 1e-12);
 }
 
 TEST(Flow, MeansAreBalancedByTheirVariances) {
