@@ -27,6 +27,7 @@ void add_synthesise(CLI::App& app);
 void add_import(CLI::App& app);
 void add_manual(CLI::App& app);
 void add_material(CLI::App& app);
+void add_measure(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_plot(CLI::App& app);

@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   tunica::app::add_import(app);
   tunica::app::add_manual(app);
   tunica::app::add_material(app);
+  tunica::app::add_measure(app);
   tunica::app::add_mesh(app);
   tunica::app::add_picture(app);
   tunica::app::add_plot(app);

@@ -10,7 +10,9 @@
 #include "tunica/case/case.hpp"
 #include "tunica/case/descriptions.hpp"
 #include "tunica/case/fibres_case.hpp"
+#include "tunica/stages/imaging/flow_scan_case.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
+#include "tunica/stages/measure/measure.hpp"
 #include "tunica/stages/report/report.hpp"
 
 namespace tunica::app {
@@ -37,10 +39,14 @@ void add_schema(CLI::App& app) {
       {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},
       {"image", [] { return Description(stages::ScanCase::schema().description()); }},
+      {"flow-image", [] { return Description(stages::FlowScanCase::schema().description()); }},
+      {"measure", [] { return Description(stages::MeasureCase::schema().description()); }},
   });
   auto* group = command->add_option_group("file", "Whose file is described instead of that of `tunica run`");
   for (Kind& kind : *kinds)
-    group->add_flag(fmt::format("--{}", kind.name), kind.wanted, fmt::format("The file of `tunica {}`", kind.name));
+    group->add_flag(
+        fmt::format("--{}", kind.name), kind.wanted,
+        fmt::format("The file of `tunica {}`", kind.name == std::string("flow-image") ? "image --flow" : kind.name));
   group->require_option(0, 1);
   command->callback([json, kinds] {
     const auto wanted = std::find_if(kinds->begin(), kinds->end(), [](const Kind& k) { return k.wanted; });

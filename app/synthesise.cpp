@@ -1,8 +1,11 @@
-// tunica synthesise: the idealised dissection as a segmented scan.
+// tunica synthesise: the idealised dissection as a segmented scan; with --flow a computed beat as velocity images.
 #include <cstdio>
+#include <functional>
+#include <memory>
 
 #include "commands.hpp"
 #include "file_command.hpp"
+#include "flow_image.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
 
 namespace tunica::app {
@@ -17,33 +20,43 @@ void image(const FileRequest& request) {
               parsed.value.output.c_str(), section.c_str());
 }
 
-void describe(CLI::App& command, const std::function<void(const FileRequest&)>& action) {
+/// `before`: what is said first; may be empty.
+void describe(CLI::App& command, const std::function<void()>& before) {
   command.footer(
       "Example of a file; `tunica schema --image` prints the reference:\n"
       "  parametric: {flap: {thickness: 1.75 mm}}\n"
       "  scan: {voxel: 0.7 mm, noise: 0.1}\n"
       "  output: dissection.nrrd\n"
-      "A scan of a patient is read by `tunica mesh`, from the section `image` of its file.");
+      "A scan of a patient is read by `tunica mesh`, from the section `image` of its file.\n"
+      "With --flow (`tunica schema --flow-image`):\n"
+      "  case: out/dissection/run/case.yaml\n"
+      "  period: 0.78 s\n"
+      "  scan: {voxel: 2 mm, frames: 25, encoding: 150 cm/s, signal_to_noise: 10}\n"
+      "  output: flow_images");
+  const auto flow = std::make_shared<bool>(false);
+  command.add_flag("--flow", *flow, "Velocity images (phase-contrast MRI) of a beat that was computed");
   add_file_arguments(command,
                      {.file = "What is imaged, and how",
-                      .output = "The image, instead of the one that the file names",
-                      .overwrite = "Replace an image that is there"},
-                     action);
+                      .output = "The image or the folder of the images, instead of the one that the file names",
+                      .overwrite = "Replace images that are there"},
+                     [flow, before](const FileRequest& request) {
+                       if (before) before();
+                       *flow ? flow_image(request) : image(request);
+                     });
 }
 
 }  // namespace
 
 void add_synthesise(CLI::App& app) {
   describe(*app.add_subcommand("synthesise",
-                               "Write a synthetic scan: the idealised dissection as a labelled image with noise"),
-           image);
-  describe(*app.add_subcommand("image", "The name of `tunica synthesise` in earlier versions"),
-           [](const FileRequest& request) {
-             std::fprintf(stderr,
-                          "tunica: `tunica image` writes a synthetic scan and is called `tunica synthesise` now; a "
-                          "scan of a patient is read by `tunica mesh`\n");
-             image(request);
-           });
+                               "Write a synthetic scan: the idealised dissection as a labelled image with noise, or a "
+                               "computed beat as 4D flow"),
+           {});
+  describe(*app.add_subcommand("image", "The name of `tunica synthesise` in earlier versions"), [] {
+    std::fprintf(stderr,
+                 "tunica: `tunica image` writes a synthetic scan and is called `tunica synthesise` now; a scan of a "
+                 "patient is read by `tunica mesh`\n");
+  });
 }
 
 }  // namespace tunica::app

@@ -10,6 +10,7 @@
 #include "tunica/case/case_text.hpp"
 #include "tunica/case/compared_law.hpp"
 #include "tunica/case/keys.hpp"
+#include "tunica/case/measured_settings.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/case/plausible.hpp"
 #include "tunica/wall/parameters.hpp"
@@ -101,6 +102,11 @@ void check_chain(const Case& c, Problems& problems) {
   if (!c.compare.empty() && !c.solves_wall())
     problems.add("compare", "is given, but the analysis has no wall", "remove it");
   if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
+  if (c.measured && !c.post)
+    problems.add("measured", "is given, and no `post` that would compare it with the results", "add `post: {}`");
+  if (c.measured && !c.solves_fluid() &&
+      !(c.measured->pressures.empty() && c.measured->flows.empty() && c.measured->areas.empty()))
+    problems.add("measured", "has pressures, flows or areas of the lumen, but the analysis has no flow", "remove them");
   if (c.compare.size() == 1)
     problems.add("compare", "names fewer than two laws", "add `compare: {neo_hooke: {material: ...}, ...}`");
   if (!(c.mesh || c.fibres) || !c.prestress) return;
@@ -302,6 +308,8 @@ Schema<Case> Case::schema() {
                "Outlets by pressures and shares of the flow, which `tunica tune` finds")
       .section("post", &Case::post, analysis::PostSettings::schema(),
                "What `tunica post` makes of the results; with its defaults when left out")
+      .section("measured", &Case::measured, MeasuredCase::schema(),
+               "Measurements that `tunica post` and the report hold the results against; docs/measured.md")
       .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
       .map("compare", &Case::compare, ComparedLaw::schema(),
            "Wall laws that `tunica compare` puts side by side, by the names that they shall have")
@@ -327,6 +335,11 @@ config::Parsed<Case> read_case(const std::filesystem::path& file) { return read_
 config::Parsed<Case> read_case(const std::string& yaml, const std::filesystem::path& file) {
   config::Parsed<Case> parsed = parse(yaml, file, true);
   std::vector<Problem> problems = check_waveforms(parsed.value);
+  if (parsed.value.measured) {
+    std::vector<std::string> points;
+    for (const auto& [name, place] : parsed.value.output.points) points.push_back(name);
+    for (auto& problem : check_measured(*parsed.value.measured, points)) problems.push_back(std::move(problem));
+  }
   if (!problems.empty()) throw InputError(std::move(problems));
   for (auto& warning : implausible_values(parsed.value)) parsed.warnings.push_back(std::move(warning));
   return parsed;

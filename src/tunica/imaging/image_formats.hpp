@@ -4,12 +4,17 @@
 #include <filesystem>
 
 #include "tunica/imaging/label_image.hpp"
+#include "tunica/imaging/value_image.hpp"
 
 namespace tunica::imaging {
 
 LabelImage read_nrrd(const std::filesystem::path& path);
 LabelImage read_metaimage(const std::filesystem::path& path);
 LabelImage read_nifti(const std::filesystem::path& path);
+
+ValueImage open_nrrd(const std::filesystem::path& path);
+ValueImage open_metaimage(const std::filesystem::path& path);
+ValueImage open_nifti(const std::filesystem::path& path);
 
 void write_nrrd(const LabelImage& image, const std::filesystem::path& path);
 void write_metaimage(const LabelImage& image, const std::filesystem::path& path);

@@ -25,6 +25,13 @@ Format format_of(const std::filesystem::path& path) {
                    "give a .nrrd, .nhdr, .mha, .mhd, .nii or .nii.gz file");
 }
 
+Format format_of_file(const std::filesystem::path& path) {
+  const auto format = format_of(path);
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(path.string(), "there is no such file", "check the path");
+  return format;
+}
+
 /// More voxels than any scanner's image has, and few enough that counting bytes cannot overflow.
 constexpr std::int64_t most_voxels = std::int64_t{1} << 31;
 
@@ -76,10 +83,7 @@ ImageFrame checked_frame(const Size3& size, const std::array<Vec3<double>, 3>& c
 }
 
 LabelImage read_label_image(const std::filesystem::path& path) {
-  const auto format = format_of(path);
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(path.string(), "there is no such file", "check the path");
-  switch (format) {
+  switch (format_of_file(path)) {
     case Format::nrrd:
       return read_nrrd(path);
     case Format::metaimage:
@@ -88,6 +92,19 @@ LabelImage read_label_image(const std::filesystem::path& path) {
       return read_nifti(path);
   }
 }
+
+ValueImage open_value_image(const std::filesystem::path& path) {
+  switch (format_of_file(path)) {
+    case Format::nrrd:
+      return open_nrrd(path);
+    case Format::metaimage:
+      return open_metaimage(path);
+    default:
+      return open_nifti(path);
+  }
+}
+
+std::vector<float> ValueImage::next_volume() { return read_values(*data, format, per_voxel * frame.count(), path); }
 
 void write_label_image(const LabelImage& image, const std::filesystem::path& path) {
   switch (format_of(path)) {

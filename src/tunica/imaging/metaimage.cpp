@@ -125,19 +125,68 @@ void limit_compressed(const TextHeader& header, DataPlace& place) {
   place.bytes = stated;
 }
 
+/// The data of `count` values, at the first one.
+std::unique_ptr<DataStream> open_data(const TextHeader& header, std::int64_t count) {
+  const bool compressed_data = flag(header, "compresseddata", false);
+  auto place = data_place(header, count * bytes_of(value_type(header)));
+  if (compressed_data) limit_compressed(header, place);
+  return std::make_unique<DataStream>(place, compressed_data ? Packing::deflated : Packing::raw);
+}
+
+ValueFormat value_format(const TextHeader& header) {
+  const bool big = flag(header, "binarydatabyteordermsb", false) || flag(header, "elementbyteordermsb", false);
+  return {.type = value_type(header), .big_endian = big};
+}
+
+/// Takes the fourth axis, of times, out of the header; returns its size.
+std::int64_t take_times(TextHeader& header) {
+  if (header.whole_numbers("ndims", 1)[0] != 4) return 1;
+  const auto times = header.whole_numbers("dimsize", 4)[3];
+  if (times < 1) header.refuse("dimsize", "must be above zero", "write the image again");
+  const auto keep = [&](const char* name, std::size_t rows, std::size_t columns) {
+    if (!header.find(name)) return;
+    const auto entries = words(header.need(name));
+    if (entries.size() != rows * columns)
+      header.refuse(name, fmt::format("must be {} numbers", rows * columns), "correct it");
+    std::string kept;
+    for (std::size_t r = 0; r < std::min<std::size_t>(rows, 3); ++r)
+      for (std::size_t c = 0; c < std::min<std::size_t>(columns, 3); ++c) kept += entries[r * columns + c] + " ";
+    header.fields.at(name).value = trimmed(kept);
+  };
+  header.fields.at("ndims").value = std::to_string(3);
+  for (const char* name : {"dimsize", "elementspacing", "elementsize", "offset", "position", "origin"})
+    keep(name, 4, 1);
+  for (const char* name : {"transformmatrix", "rotation", "orientation"}) keep(name, 4, 4);
+  return times;
+}
+
 }  // namespace
 
 LabelImage read_metaimage(const std::filesystem::path& path) {
   const auto header = read_header(path);
   const auto frame = read_frame(header);
-  const auto type = value_type(header);
-  const bool compressed_data = flag(header, "compresseddata", false);
-  auto place = data_place(header, frame.count() * bytes_of(type));
-  if (compressed_data) limit_compressed(header, place);
-  DataStream data(place, compressed_data ? Packing::deflated : Packing::raw);
-  if (!flag(header, "binarydata", true)) return {frame, read_labels_from_text(data, frame, path)};
-  const bool big = flag(header, "binarydatabyteordermsb", false) || flag(header, "elementbyteordermsb", false);
-  return {frame, read_labels(data, {.type = type, .big_endian = big}, frame, path)};
+  const auto format = value_format(header);
+  const auto data = open_data(header, frame.count());
+  if (!flag(header, "binarydata", true)) return {frame, read_labels_from_text(*data, frame, path)};
+  return {frame, read_labels(*data, format, frame, path)};
+}
+
+ValueImage open_metaimage(const std::filesystem::path& path) {
+  auto header = read_header(path);
+  ValueImage image;
+  image.path = path;
+  image.times = take_times(header);
+  if (header.find("elementnumberofchannels")) {
+    image.per_voxel = header.whole_numbers("elementnumberofchannels", 1)[0];
+    if (image.per_voxel < 1) header.refuse("elementnumberofchannels", "must be above zero", "write the image again");
+    header.fields.at("elementnumberofchannels").value = std::to_string(1);
+  }
+  image.frame = read_frame(header);
+  if (!flag(header, "binarydata", true))
+    header.refuse("binarydata", "series of numbers are read from binary data", "write it as binary data");
+  image.format = value_format(header);
+  image.data = open_data(header, image.frame.count() * image.per_voxel * image.times);
+  return image;
 }
 
 void write_metaimage(const LabelImage& image, const std::filesystem::path& path) {

@@ -151,14 +151,35 @@ Size3 size_of(const Header& h, const std::filesystem::path& path) {
     if (h.dim[d] < 1)
       refuse(path, fmt::format("its size along dimension {} is {}", d, h.dim[d]),
              "write the image again, its header is damaged");
-  if (dimensions > 3 && h.dim[4] > 1)
+  return {h.dim[1], h.dim[2], h.dim[3]};
+}
+
+/// Its size along a dimension that it may not have.
+std::int64_t size_along(const Header& h, int d) { return d <= h.dim[0] ? h.dim[d] : 1; }
+
+void require_three_dimensions(const Header& h, const std::filesystem::path& path) {
+  if (size_along(h, 4) > 1)
     refuse(path, fmt::format("is an image of 4 dimensions: it holds {} times (frames), and one is meshed", h.dim[4]),
            "write the labels of one time as an image of their own");
-  for (int d = 5; d <= dimensions; ++d)
+  for (int d = 5; d <= h.dim[0]; ++d)
     if (h.dim[d] > 1)
       refuse(path, fmt::format("is an image of {} dimensions: it holds {} values for each voxel", d, h.dim[d]),
              "give a three-dimensional image of one label for each voxel");
-  return {h.dim[1], h.dim[2], h.dim[3]};
+}
+
+/// Seconds between two frames; 0 where the header does not say.
+double time_step(const Header& h) {
+  if (size_along(h, 4) < 2 || !(h.pixdim[4] > 0)) return 0;
+  switch (h.units & 56) {
+    case 8:
+      return h.pixdim[4];
+    case 16:
+      return 1e-3 * h.pixdim[4];
+    case 24:
+      return 1e-6 * h.pixdim[4];
+    default:
+      return 0;
+  }
 }
 
 /// Metres in a unit of the file; the standard unit of an image that states none is mm.
@@ -269,9 +290,28 @@ LabelImage read_nifti(const std::filesystem::path& path) {
   DataStream data({path}, Packing::detected);
   const auto header = read_header(data, path);
   const auto frame = read_frame(header, path);
+  require_three_dimensions(header, path);
   const ValueFormat format{value_type(header, path), header.big_endian, scaling_of(header, path)};
   skip_to_voxels(data, header, path);
   return {frame, read_labels(data, format, frame, path)};
+}
+
+ValueImage open_nifti(const std::filesystem::path& path) {
+  ValueImage image;
+  image.path = path;
+  image.data = std::make_unique<DataStream>(DataPlace{path}, Packing::detected);
+  const auto header = read_header(*image.data, path);
+  image.frame = read_frame(header, path);
+  for (int d = 6; d <= header.dim[0]; ++d)
+    if (header.dim[d] > 1)
+      refuse(path, fmt::format("has {} entries along dimension {}", header.dim[d], d),
+             "write times along dimension 4 and components along dimension 5");
+  image.times = size_along(header, 4);
+  image.components = size_along(header, 5);
+  image.time_step = time_step(header);
+  image.format = {value_type(header, path), header.big_endian, scaling_of(header, path)};
+  skip_to_voxels(*image.data, header, path);
+  return image;
 }
 
 void write_nifti(const LabelImage& image, const std::filesystem::path& path) {

@@ -127,6 +127,40 @@ ImageFrame read_frame(const TextHeader& header) {
   return checked_frame({sizes[0], sizes[1], sizes[2]}, steps, first, header.path);
 }
 
+/// What an image of four dimensions has besides its voxels.
+struct FourthAxis {
+  std::int64_t first = 1, last = 1;  ///< entries before and after the axes of space
+};
+
+/// Takes the axis that is none of space out of the header of a four-dimensional image.
+FourthAxis take_fourth_axis(TextHeader& header) {
+  FourthAxis result;
+  if (header.whole_numbers("dimension", 1)[0] != 4) return result;
+  const auto name = header.find("space directions") ? "space directions" : "kinds";
+  const auto axes = words(lower(header.need(name)));
+  std::vector<std::size_t> others;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    if (axes[a] == "none" || (name == std::string("kinds") && axes[a] != "domain" && axes[a] != "space"))
+      others.push_back(a);
+  if (axes.size() != 4 || others.size() != 1 || (others[0] != 0 && others[0] != 3))
+    header.refuse(name, "of four axes the first or the last one is not of space: vectors or times",
+                  "write `none` for it in `space directions`");
+  const auto size = header.whole_numbers("sizes", 4)[others[0]];
+  if (size < 1) header.refuse("sizes", "must be above zero", "write the image again");
+  (others[0] == 0 ? result.first : result.last) = size;
+  header.fields.at("dimension").value = std::to_string(3);
+  for (const char* field : {"sizes", "space directions", "spacings", "axis mins", "centers", "centerings", "units"}) {
+    if (!header.find(field)) continue;
+    std::string kept;
+    const auto entries = words(header.need(field));
+    if (entries.size() != 4) header.refuse(field, "must have four entries without blanks in them", "correct it");
+    for (std::size_t a = 0; a < 4; ++a)
+      if (a != others[0]) kept += (kept.empty() ? "" : " ") + entries[a];
+    header.fields.at(field).value = kept;
+  }
+  return result;
+}
+
 /// How many lines or bytes of the data file come before the data.
 std::int64_t skipped(const TextHeader& header, std::initializer_list<const char*> names, std::int64_t least) {
   const auto name = header.first_of(names);
@@ -184,21 +218,47 @@ Encoding encoding_of(const TextHeader& header) {
 
 }  // namespace
 
-LabelImage read_nrrd(const std::filesystem::path& path) {
-  const auto header = read_header(path);
-  const auto frame = read_frame(header);
-  const auto type = value_type(header);
+namespace {
+
+/// The data of `count` values, at the first one.
+std::unique_ptr<DataStream> open_data(const TextHeader& header, std::int64_t count) {
   const auto encoding = encoding_of(header);
   auto place = data_place(header);
   skip_lines(place, skipped(header, {"line skip", "lineskip"}, 0), header);
   // -1 says of raw data that they are the end of the file.
   const auto bytes = skipped(header, {"byte skip", "byteskip"}, encoding == Encoding::raw ? -1 : 0);
-  if (bytes == -1) place_at_end(place, frame.count() * bytes_of(type));
-  DataStream data(place, encoding == Encoding::gzip ? Packing::deflated : Packing::raw);
-  if (bytes > 0 && data.skip(bytes) < bytes)
+  if (bytes == -1) place_at_end(place, count * bytes_of(value_type(header)));
+  auto data = std::make_unique<DataStream>(place, encoding == Encoding::gzip ? Packing::deflated : Packing::raw);
+  if (bytes > 0 && data->skip(bytes) < bytes)
     header.refuse(header.first_of({"byte skip", "byteskip"}), "there are fewer bytes", "correct it");
-  if (encoding == Encoding::text) return {frame, read_labels_from_text(data, frame, path)};
-  return {frame, read_labels(data, {.type = type, .big_endian = big_endian(header, type)}, frame, path)};
+  return data;
+}
+
+}  // namespace
+
+LabelImage read_nrrd(const std::filesystem::path& path) {
+  const auto header = read_header(path);
+  const auto frame = read_frame(header);
+  const auto type = value_type(header);
+  const auto data = open_data(header, frame.count());
+  if (encoding_of(header) == Encoding::text) return {frame, read_labels_from_text(*data, frame, path)};
+  return {frame, read_labels(*data, {.type = type, .big_endian = big_endian(header, type)}, frame, path)};
+}
+
+ValueImage open_nrrd(const std::filesystem::path& path) {
+  auto header = read_header(path);
+  const auto fourth = take_fourth_axis(header);
+  ValueImage image;
+  image.path = path;
+  image.frame = read_frame(header);
+  image.per_voxel = fourth.first;
+  image.times = fourth.last;
+  const auto type = value_type(header);
+  if (encoding_of(header) == Encoding::text)
+    header.refuse("encoding", "series of numbers are read from raw or gzip", "write it with encoding raw or gzip");
+  image.format = {.type = type, .big_endian = big_endian(header, type)};
+  image.data = open_data(header, image.frame.count() * image.per_voxel * image.times);
+  return image;
 }
 
 void write_nrrd(const LabelImage& image, const std::filesystem::path& path) {

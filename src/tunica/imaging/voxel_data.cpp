@@ -165,6 +165,33 @@ std::vector<std::int16_t> read_labels(DataStream& data, const ValueFormat& forma
   return labels;
 }
 
+std::vector<float> read_values(DataStream& data, const ValueFormat& format, std::int64_t count,
+                               const std::filesystem::path& path) {
+  const std::int64_t bytes = bytes_of(format.type);
+  const auto refuse = [&](std::int64_t found) {
+    throw InputError(path.string(), fmt::format("holds {} bytes where its header announces {}", found, count * bytes),
+                     "copy the file again, it seems to be cut off; or correct size and type in its header");
+  };
+  if (data.most() < count * bytes) refuse(data.most());
+  std::vector<float> values(static_cast<std::size_t>(count));
+  const bool turn = format.big_endian != (std::endian::native == std::endian::big);
+  const auto value = value_reader(format.type);
+  std::vector<char> block(static_cast<std::size_t>(block_of_values * bytes));
+  for (std::int64_t first = 0; first < count; first += block_of_values) {
+    const auto wanted = std::min(block_of_values, count - first);
+    const auto got = data.read(block.data(), static_cast<std::size_t>(wanted * bytes));
+    if (static_cast<std::int64_t>(got) < wanted * bytes) refuse(first * bytes + static_cast<std::int64_t>(got));
+    for (std::int64_t i = 0; i < wanted; ++i) {
+      const double v = format.scaling.slope * value(block.data() + i * bytes, turn) + format.scaling.intercept;
+      if (!std::isfinite(v))
+        throw InputError(path.string(), fmt::format("its value number {} is {}, no number", first + i, v),
+                         "write the image again, with 0 where nothing was measured");
+      values[static_cast<std::size_t>(first + i)] = static_cast<float>(v);
+    }
+  }
+  return values;
+}
+
 std::vector<std::int16_t> read_labels_from_text(DataStream& data, const ImageFrame& frame,
                                                 const std::filesystem::path& path) {
   const auto count = frame.count();

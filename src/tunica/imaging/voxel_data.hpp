@@ -72,6 +72,11 @@ std::vector<std::int16_t> read_labels(DataStream& data, const ValueFormat& forma
 std::vector<std::int16_t> read_labels_from_text(DataStream& data, const ImageFrame& frame,
                                                 const std::filesystem::path& path);
 
+/// The next `count` values, as they stand after scaling; `path` is the image, for messages. InputError when there are
+/// fewer, and for values that are no numbers.
+std::vector<float> read_values(DataStream& data, const ValueFormat& format, std::int64_t count,
+                               const std::filesystem::path& path);
+
 /// One value as a label; InputError when it is none.
 std::int16_t label_from_value(double value, std::int64_t index, const std::filesystem::path& path);
 std::string bytes_from_labels(const std::vector<std::int16_t>& labels);  ///< little-endian

@@ -21,6 +21,7 @@
 #include "tunica/meshing/wall_regions.hpp"
 #include "tunica/stages/fibres/fibres.hpp"
 #include "tunica/stages/posed_case.hpp"
+#include "tunica/stages/post/measured.hpp"
 #include "tunica/stages/post/post.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/tuning/tune.hpp"
@@ -169,6 +170,10 @@ void check_post(const case_file::Case& c, Problems& problems) {
   };
   look_up("post.inlet", analysis::inlet_name(case_file::describe(c), *c.post));
   if (c.post->end) look_up("post.end", *c.post->end);
+  if (!c.measured) return;
+  for (const auto& kind : case_file::measurement_kinds())
+    for (const auto& [name, m] : (*c.measured).*kind.entries)
+      if (m.opening) look_up(fmt::format("measured.{}.{}.opening", kind.key, name).c_str(), *m.opening);
 }
 
 /// With faces in the place of patterns.
@@ -310,6 +315,7 @@ std::vector<std::string> check_on_meshes(const Chain& chain) {
   check_stage_faces(read.settings, faces, regions, problems);
   if (chain.settings.post)
     collect(problems, "", [&] { analysis::check_ends(describe(read.settings), *chain.settings.post, read.mesh.data); });
+  collect(problems, "", [&] { stages::post::find_measured_sections(read.settings, read.mesh.data); });
   collect(problems, "", [&] {
     if (chain.settings.outlets && chain.settings.outlets->given_file)
       artifacts::take_tuned_outlets(MPI_COMM_SELF, read.settings);

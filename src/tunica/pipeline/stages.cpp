@@ -104,7 +104,8 @@ Document fibres_document(const Chain& chain, const fs::path& folder) {
 /// A case on the mesh that was made, without the sections of stages.
 Document computed_case(const Chain& chain, const fs::path& folder) {
   Document document = case_for(chain, folder);
-  for (const char* section : {"mesh", "fibres", "prestress", "post", "report", "compare"}) document.remove(section);
+  for (const char* section : {"mesh", "fibres", "prestress", "post", "measured", "report", "compare"})
+    document.remove(section);
   document.set("meshes", meshes_for(chain, folder, true));
   return document;
 }
@@ -155,6 +156,7 @@ Document post_document(const Chain& chain, const fs::path& folder) {
   if (!has_window && document.has("time.cycles.period")) figures.set("period", document.text("time.cycles.period"));
   document.set("post", figures);
   document.set("post.output", ".");
+  if (chain.settings.measured) document.set("measured", case_for(chain, folder).part("measured"));
   document.set("output.directory", path_to(folder_of(chain, stage("run")), folder));
   return document;
 }

@@ -16,6 +16,7 @@
 #include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/progress.hpp"
+#include "tunica/stages/post/measured.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
 
@@ -108,6 +109,7 @@ class Post {
   std::optional<analysis::FrameFigures> frames_;
   std::optional<analysis::FigureTable> figures_;
   analysis::CycleFields fields_;
+  MeasuredSections measured_sections_;
   std::optional<artifacts::LumenSeries> run_lumens_;  ///< as the run has written them for the window
 };
 
@@ -138,6 +140,7 @@ void Post::read() {
       mesh::add_edge_nodes(data_);
       data_ = mesh::subdivided(data_);
     }
+    measured_sections_ = find_measured_sections(case_, data_);
     series_.emplace(case_file::describe(case_), data_, results_);
     auto warnings = std::vector<std::string>{};
     window_ = choose_window(series_->times(), settings_, results_.string(), warnings);
@@ -194,7 +197,9 @@ void Post::look_at_frames() {
     for (std::size_t k = begin; k < end; ++k) {
       const auto mesh_velocity = window.mesh_velocity(window_.first + k);
       const auto& frame = window.at(window_.first + k);
-      figures_->set(k, frames_->evaluate(frame, mesh_velocity));
+      auto row = frames_->evaluate(frame, mesh_velocity);
+      add_sections(measured_sections_, frame, mesh_velocity, row);
+      figures_->set(k, row);
       frames_->add(frame, weights[k], fields_);
       bar.update(static_cast<double>(k + 1 - begin), fmt::format("field {} of {}", k + 1 - begin, end - begin));
     }
@@ -235,9 +240,11 @@ void Post::write() {
     auto& files = report["files"] = nlohmann::ordered_json::array();
     for (const auto& write : {write_tables, write_plots, write_fields})
       for (const auto& file : write(findings, folder_)) files.push_back(file);
+    if (case_.measured) report["measured"] = compare_measured(findings, case_, folder_, files);
     report["seconds"] = MPI_Wtime() - started_;
     files::write_atomically(folder_ / report_file, config::json_text(report));
     log_->info(report_text(report));
+    if (case_.measured) log_->info(measured_text(report["measured"]));
     if (too_dissipative) log_->warning(*too_dissipative);
   });
   log_->info(fmt::format("{} files in {}", report_file, folder_.string()));

@@ -110,7 +110,7 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   std::string text = viewer::begin_page(report.title.empty() ? "Report" : report.title) +
                      fmt::format(contents, view.text.empty() ? "" : "<a href=\"#view3d\">3D</a>");
   text += part::answer_part(r, plots) + view.text + part::mesh_part(r) + part::fibres_part(r);
-  text += part::cycle_part(r, plots) + part::pictures_part(r, say);
+  text += part::cycle_part(r, plots) + part::measured_part(r) + part::pictures_part(r, say);
   text += "<h2 id=\"method\">Method</h2>\n" + part::prestress_part(r) + part::outlets_part(r);
   text += part::run_part(r) + part::summary_part(r, program);
   if (view.drawn) text += "<h3>How exact the view in 3D is</h3>\n" + view.accuracy;

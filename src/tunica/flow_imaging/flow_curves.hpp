@@ -1,0 +1,35 @@
+// Flow through sections over the beat, with its uncertainty, and what mass says of several of them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tunica/flow_imaging/profile_fit.hpp"
+
+namespace tunica::flow_imaging {
+
+struct FlowCurve {
+  std::string name;
+  Vec3<double> centre{}, normal{};  ///< of the section [m], unit
+  double area = 0;                  ///< m^2
+  std::size_t voxels = 0;           ///< that tell the flow
+  std::vector<double> flow;         ///< of each frame along the normal [m^3/s]
+  double deviation = 0;             ///< one standard deviation of each of them [m^3/s]
+
+  double mean() const;            ///< over the beat; frames are weighted by the time that they stand for
+  double mean_deviation() const;  ///< of it
+  std::vector<double> weights{};  ///< of the frames, sum 1
+};
+
+/// Share of the period that each frame stands for: half of the way to the frames before and after, round the period.
+std::vector<double> frame_weights(const std::vector<double>& times, double period);
+
+FlowCurve flow_curve(const VelocitySeries& series, const ProfileFit& fit, const CrossSection& section);
+
+/// Makes the sums of the mean flows zero, where `signs[k]` is +-1 for a curve that takes part and 0 for another one:
+/// each mean is moved by its share of the sum of all variances, the same at all frames (weighted least squares).
+/// Returns what was left of mass before [m^3/s].
+double balance_means(std::span<FlowCurve> curves, std::span<const int> signs);
+
+}  // namespace tunica::flow_imaging

@@ -1,0 +1,257 @@
+#include "tunica/flow_imaging/profile_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tunica/base/error.hpp"
+#include "tunica/flow_imaging/dense.hpp"
+
+namespace tunica::flow_imaging {
+
+namespace {
+
+constexpr double along = 3;          ///< correlation length along the normal over that in the plane
+constexpr double least_share = 0.5;  ///< of a voxel that lies in the section's column
+constexpr std::size_t least_voxels = 6, most_voxels = 1500;
+constexpr double least_noise = 1e-6;  ///< variance over that of the profile
+constexpr double held = 1e-3;         ///< deviation of the velocity on the rim over that of the profile
+
+/// Matern's function of smoothness 5/2.
+double matern(double distance, double length) {
+  const double a = std::sqrt(5.0) * distance / length;
+  return (1 + a + a * a / 3) * std::exp(-a);
+}
+
+}  // namespace
+
+struct ProfileFit::Factor {
+  dense::Matrix lower;
+};
+
+LumenVoxels lumen_voxels(const VelocitySeries& series, const mesh::MeshData& data, double tissue_magnitude) {
+  LumenVoxels lumen;
+  for (const auto& region : data.regions) {
+    if (region.kind != mesh::RegionKind::lumen) continue;
+    const auto elements = std::span(data.tetrahedra)
+                              .subspan(static_cast<std::size_t>(region.first_element),
+                                       static_cast<std::size_t>(region.end_element - region.first_element));
+    lumen.samples = lumen_samples(series.frame, data.points, elements);
+    for (const auto& sample : lumen.samples) {
+      Vec3<double> x{};
+      const auto& nodes = elements[static_cast<std::size_t>(sample.element)];
+      for (std::size_t a = 0; a < 4; ++a)
+        x = x + sample.barycentric[a] * data.points[static_cast<std::size_t>(nodes[a])];
+      lumen.places.push_back(x);
+    }
+  }
+  lumen.shares = lumen_shares(series.frame, lumen.samples);
+  if (series.magnitude.empty()) return lumen;
+  double sum = 0, count = 0;
+  for (std::size_t v = 0; v < lumen.shares.size(); ++v)
+    if (lumen.shares[v] > 0.99F) sum += static_cast<double>(series.magnitude[v]), count += 1;
+  if (count == 0 || !(sum > 0)) return lumen;
+  lumen.blood_magnitude = sum / count;
+  if (tissue_magnitude > 0) lumen.tissue_signal = tissue_magnitude / lumen.blood_magnitude;
+  return lumen;
+}
+
+ProfileFit::ProfileFit(const VelocitySeries& series, const LumenVoxels& lumen, const CrossSection& section,
+                       const Noise& noise, const FitSettings& settings)
+    : series_(series),
+      section_(section),
+      column_(section),
+      noise_(noise),
+      length_(settings.length.value_or(0.5 * std::sqrt(section.area / M_PI))) {
+  const double spacing = series.frame.largest_spacing();
+  double slab = settings.slab;
+  gather(lumen, slab * spacing);
+  while (observations_.size() > most_voxels && slab > 0.5) {
+    slab *= 0.7;
+    gather(lumen, slab * spacing);
+  }
+  if (observations_.size() < least_voxels)
+    throw InputError(
+        section.name,
+        fmt::format("has {} voxels of at least half lumen about its centre ({:.1f}, {:.1f}, {:.1f}) mm, {} are needed",
+                    observations_.size(), 1e3 * section.centre[0], 1e3 * section.centre[1], 1e3 * section.centre[2],
+                    least_voxels),
+        "leave it out: it is too narrow for these images, or lies beyond them; or bring mesh and images "
+        "into the same coordinates");
+  find_variances();
+  place_rim();
+  prepare();
+}
+
+/// Voxels of which at least half lies in the column over the section, and nothing in another part of the lumen.
+void ProfileFit::gather(const LumenVoxels& lumen, double slab) {
+  observations_.clear();
+  for (std::size_t begin = 0; begin < lumen.samples.size();) {
+    const auto voxel = lumen.samples[begin].voxel;
+    auto end = begin;
+    while (end < lumen.samples.size() && lumen.samples[end].voxel == voxel) ++end;
+    const auto middle = series_.frame.place(series_.frame.voxel(voxel));
+    const double reach = slab + series_.frame.largest_spacing();
+    if (static_cast<double>(end - begin) < least_share * samples_in_voxel || std::abs(column_.height(middle)) > slab ||
+        norm(middle - section_.centre) > reach + 3 * std::sqrt(section_.area)) {
+      begin = end;
+      continue;
+    }
+    struct Sum {
+      std::array<double, 3> at{};
+      double count = 0;
+    };
+    std::map<int, Sum> octants;
+    bool elsewhere = false;
+    double inside = 0;
+    for (auto k = begin; k < end && !elsewhere; ++k) {
+      const auto& x = lumen.places[k];
+      if (!column_.holds(x)) {
+        elsewhere = std::abs(column_.height(x)) <= slab;
+        continue;
+      }
+      const auto in_plane = column_.plane(x);
+      const Vec3<double> d = x - middle;
+      int octant = 0;
+      for (std::size_t a = 0; a < 3; ++a)
+        if (dot(d, series_.frame.steps[a]) > 0) octant |= 1 << a;
+      auto& sum = octants[octant];
+      sum.at[0] += in_plane[0], sum.at[1] += in_plane[1], sum.at[2] += column_.height(x);
+      sum.count += 1;
+      inside += 1;
+    }
+    begin = end;
+    if (inside < least_share * samples_in_voxel) continue;
+    Observation o{.voxel = voxel, .parts = {}, .deviation = 0};
+    const double total = inside + (samples_in_voxel - inside) * lumen.tissue_signal;
+    for (const auto& [octant, sum] : octants)
+      o.parts.push_back({{sum.at[0] / sum.count, sum.at[1] / sum.count, sum.at[2] / sum.count}, sum.count / total});
+    o.deviation = noise_.at(lumen.blood_magnitude * total / samples_in_voxel);
+    observations_.push_back(std::move(o));
+  }
+}
+
+double ProfileFit::correlation(const std::array<double, 3>& a, const std::array<double, 3>& b) const {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = (a[2] - b[2]) / (along * length_);
+  return matern(std::sqrt(x * x + y * y), length_) * std::exp(-0.5 * z * z);
+}
+
+double ProfileFit::correlation(const Observation& o, const std::array<double, 3>& at) const {
+  double result = 0;
+  for (const auto& part : o.parts) result += part.weight * correlation(part.at, at);
+  return result;
+}
+
+/// With all observations, and with the rim after them.
+std::vector<double> ProfileFit::correlations(const std::array<double, 3>& at) const {
+  std::vector<double> result;
+  for (const auto& o : observations_) result.push_back(correlation(o, at));
+  for (const auto& r : rim_) result.push_back(correlation(r, at));
+  return result;
+}
+
+/// Mean squares over voxels and frames, less those of the noise.
+void ProfileFit::find_variances() {
+  double noise = 0, axial = 0, all = 0;
+  const auto count = static_cast<double>(observations_.size() * series_.frames());
+  for (const auto& o : observations_) {
+    noise += o.deviation * o.deviation / static_cast<double>(observations_.size());
+    for (const auto& of_frame : series_.velocity) {
+      Vec3<double> v{};
+      for (int d = 0; d < 3; ++d)
+        v[d] = static_cast<double>(of_frame[static_cast<std::size_t>(d)][static_cast<std::size_t>(o.voxel)]);
+      axial += std::pow(dot(section_.normal, v), 2) / count;
+      all += dot(v, v) / count;
+    }
+  }
+  constexpr double least = 1e-2;  // of the noise: no matrix without a diagonal
+  along_ = std::max({axial - noise, least * noise, 1e-12});
+  across_ = std::max({0.5 * (all - axial) - noise, least * noise, 1e-12});
+}
+
+/// Places on the rim a fifth of the correlation length apart.
+void ProfileFit::place_rim() {
+  for (const auto& edge : section_.rim) {
+    const auto a = section_.points[static_cast<std::size_t>(edge[0])],
+               b = section_.points[static_cast<std::size_t>(edge[1])];
+    const int parts = 1 + static_cast<int>(3 * norm(b - a) / length_);
+    for (int k = 0; k < parts; ++k) {
+      const auto p = column_.plane(a + (static_cast<double>(k) / parts) * (b - a));
+      const bool near = std::any_of(rim_.begin(), rim_.end(), [&](const auto& r) {
+        return std::hypot(r[0] - p[0], r[1] - p[1]) < 0.2 * length_;
+      });
+      if (!near) rim_.push_back({p[0], p[1], 0.0});
+    }
+  }
+}
+
+/// Of the correlations, with the noise in units of the variance of the profile.
+std::shared_ptr<const ProfileFit::Factor> ProfileFit::factorised(double variance) const {
+  const auto n = observations_.size(), all = n + rim_.size();
+  auto factor = std::make_shared<Factor>(Factor{correlations_});
+  for (std::size_t i = 0; i < all; ++i)
+    factor->lower(i, i) +=
+        i < n ? std::max(std::pow(observations_[i].deviation, 2) / variance, least_noise) : held * held;
+  dense::factorise(factor->lower, "profile of " + section_.name);
+  return factor;
+}
+
+void ProfileFit::prepare() {
+  const auto n = observations_.size(), all = n + rim_.size();
+  correlations_ = dense::Matrix(all, all);
+  for (std::size_t i = 0; i < all; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double c = 0;
+      if (i < n)
+        for (const auto& part : observations_[i].parts) c += part.weight * correlation(observations_[j], part.at);
+      else
+        c = j < n ? correlation(observations_[j], rim_[i - n]) : correlation(rim_[i - n], rim_[j - n]);
+      correlations_(i, j) = c;
+    }
+  factor_along_ = factorised(along_);
+  factor_across_ = factorised(across_);
+  std::vector<double> right(all, 0.0);
+  for (const auto& [x, area] : quadrature(section_)) {
+    const auto p = column_.plane(x);
+    const auto c = correlations({p[0], p[1], 0.0});
+    for (std::size_t i = 0; i < all; ++i) right[i] += area * c[i];
+  }
+  flow_weights_ = solved(*factor_along_, std::move(right));
+  for (std::size_t i = 0; i < n; ++i) flow_deviation_ += std::pow(flow_weights_[i] * observations_[i].deviation, 2);
+  flow_deviation_ = std::sqrt(flow_deviation_);
+}
+
+/// Weights of the voxels alone: on the rim the velocity is zero.
+std::vector<double> ProfileFit::solved(const Factor& factor, std::vector<double> right) const {
+  dense::solve(factor.lower, right);
+  right.resize(observations_.size());
+  return right;
+}
+
+double ProfileFit::flow(std::size_t frame) const { return dot(section_.normal, sum(frame, flow_weights_)); }
+
+ProfileFit::Weights ProfileFit::weights_at(const Vec3<double>& place) const {
+  const auto p = column_.plane(place);
+  const auto right = correlations({p[0], p[1], 0.0});
+  return {solved(*factor_along_, right), solved(*factor_across_, right)};
+}
+
+Vec3<double> ProfileFit::velocity(std::size_t frame, const Weights& weights) const {
+  const auto along_normal = sum(frame, weights.along), rest = sum(frame, weights.across);
+  return rest + dot(section_.normal, along_normal - rest) * section_.normal;
+}
+
+Vec3<double> ProfileFit::sum(std::size_t frame, std::span<const double> weights) const {
+  Vec3<double> v{};
+  for (std::size_t i = 0; i < observations_.size(); ++i)
+    for (int d = 0; d < 3; ++d)
+      v[d] +=
+          weights[i] *
+          static_cast<double>(
+              series_.velocity[frame][static_cast<std::size_t>(d)][static_cast<std::size_t>(observations_[i].voxel)]);
+  return v;
+}
+
+}  // namespace tunica::flow_imaging

@@ -1,0 +1,93 @@
+// The velocity in a section of a lumen from the noisy voxels about it.
+//
+// The profile is a Gaussian process that vanishes on the rim, with a correlation length in the plane and three times as
+// much along the normal; voxels are means of it over the part of them that lies in the lumen, diluted by the tissue in
+// the rest. How large velocities along and across the normal are is taken from the voxels, less their noise: what is
+// not there is not fitted. What is fitted is linear in the voxels: a flow is a sum of weights times voxels, and so its
+// uncertainty follows from theirs (Rasmussen & Williams 2006, Gaussian Processes for Machine Learning, eq. 2.23-2.26).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tunica/flow_imaging/corrections.hpp"
+#include "tunica/flow_imaging/cross_section.hpp"
+#include "tunica/flow_imaging/dense.hpp"
+#include "tunica/flow_imaging/lumen_samples.hpp"
+
+namespace tunica::flow_imaging {
+
+struct FitSettings {
+  std::optional<double> length{};  ///< of correlation in the plane [m]; none: half the radius of the section's area
+  double slab = 1.5;               ///< voxels before and behind the plane that are taken, in their largest spacing
+};
+
+/// The lumen on the voxels of a series, once for all sections.
+struct LumenVoxels {
+  std::vector<LumenSample> samples;
+  std::vector<Vec3<double>> places;  ///< of the samples [m]
+  std::vector<float> shares;
+  double blood_magnitude = 0;  ///< mean in voxels that lie in the lumen; 0: no magnitude
+  double tissue_signal = 1;    ///< magnitude of static tissue over that of blood; 1 without a magnitude
+};
+LumenVoxels lumen_voxels(const VelocitySeries& series, const mesh::MeshData& data, double tissue_magnitude);
+
+/// A fitted section, ready for any frame.
+class ProfileFit {
+ public:
+  /// Throws InputError when fewer than six voxels lie in the section: it is too narrow for the image, or beyond it.
+  ProfileFit(const VelocitySeries& series, const LumenVoxels& lumen, const CrossSection& section, const Noise& noise,
+             const FitSettings& settings);
+
+  std::size_t voxels() const { return observations_.size(); }
+  double length() const { return length_; }  ///< m
+  /// Of one frame along the normal [m^3/s].
+  double flow(std::size_t frame) const;
+  double flow_deviation() const { return flow_deviation_; }  ///< standard deviation of the flow of a frame [m^3/s]
+  /// Weights of the voxels for the velocity at a place of the section: of that along the normal, and across it.
+  struct Weights {
+    std::vector<double> along, across;
+  };
+  Weights weights_at(const Vec3<double>& place) const;
+  /// The velocity that such weights give.
+  Vec3<double> velocity(std::size_t frame, const Weights& weights) const;
+
+ private:
+  /// A part of a voxel that lies in the section's column: mean place, share of the voxel's value.
+  struct Part {
+    std::array<double, 3> at;  ///< in the plane, and along the normal [m]
+    double weight;
+  };
+  struct Observation {
+    std::int64_t voxel;
+    std::vector<Part> parts;
+    double deviation;  ///< m/s
+  };
+  void gather(const LumenVoxels& lumen, double slab);
+  void find_variances();
+  void place_rim();
+  void prepare();
+  struct Factor;
+  std::shared_ptr<const Factor> factorised(double variance) const;
+  double correlation(const std::array<double, 3>& a, const std::array<double, 3>& b) const;
+  double correlation(const Observation& o, const std::array<double, 3>& at) const;
+  std::vector<double> correlations(const std::array<double, 3>& at) const;
+  std::vector<double> solved(const Factor& factor, std::vector<double> right) const;
+  Vec3<double> sum(std::size_t frame, std::span<const double> weights) const;
+
+  const VelocitySeries& series_;
+  const CrossSection& section_;
+  SectionColumn column_;
+  Noise noise_;
+  double length_, along_ = 0, across_ = 0;  ///< m; variances of the velocities along and across the normal [m^2/s^2]
+  std::vector<Observation> observations_;
+  std::vector<std::array<double, 3>> rim_;
+  dense::Matrix correlations_{0, 0};
+  std::vector<double> flow_weights_;
+  double flow_deviation_ = 0;
+  std::shared_ptr<const Factor> factor_along_, factor_across_;
+};
+
+}  // namespace tunica::flow_imaging
