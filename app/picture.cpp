@@ -57,7 +57,9 @@ void add_picture(CLI::App& app) {
       "  xvfb-run -a tunica picture results/lumen.hdf.series --streamlines velocity --movie -o flow.webm");
   const auto a = std::make_shared<Arguments>();
   auto& o = a->options;
-  command->add_option("files", o.inputs, "Time series (.hdf.series, .pvd) or meshes (.hdf, .vtu, .pvtu, .vtp, .pvtp), drawn together")
+  command
+      ->add_option("files", o.inputs,
+                   "Time series (.hdf.series, .pvd) or meshes (.hdf, .vtu, .pvtu, .vtp, .pvtp), drawn together")
       ->required();
   command
       ->add_option("-o,--output", o.output,

@@ -44,7 +44,7 @@ std::vector<std::string> answer_lines(const std::filesystem::path& faces, const 
     if (lines.size() == most_lines) break;
     const auto pressure = range_text(table, name + " pressure", first), flow = range_text(table, name + " flow", first);
     if (pressure && flow)
-      lines.push_back(fmt::format("  {:<{}} {}  {}", name, std::min<std::size_t>(width, 22), *pressure, *flow));
+      lines.push_back(fmt::format("  {:<{}} {}  {}", name, std::min<std::size_t>(width, 28), *pressure, *flow));
   }
   return lines;
 }

@@ -30,6 +30,7 @@ std::string message_of_run(const fs::path& file, Watcher watcher) {
   std::FILE* screen = fopencookie(&watcher, "w", {nullptr, watch, nullptr, nullptr});
   stages::RunRequest request;
   request.case_file = file;
+  request.verbose = true;  // the steps are what is watched
   const std::string message = message_of<Error>([&] { stages::run(MPI_COMM_WORLD, request, screen); });
   std::fclose(screen);
   MPI_Barrier(MPI_COMM_WORLD);
