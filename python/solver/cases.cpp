@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>

@@ -69,7 +69,7 @@ def tune_outlets(case, output, *, overwrite=False, comm=None, verbose=False):
     case, output = as_case(case), Path(os.fspath(output)).resolve()
     case = case.replace({"outlets.output": str(output)})
     _stopped(_solver.tune(case.yaml, case.file, output, overwrite, comm, verbose))
-    return Outlets(output, case.settings["outlets.file"] or output / "outlets.yaml")
+    return Outlets(output, case.settings.get("outlets.file") or output / "outlets.yaml")
 
 
 def cycle_quantities(case, output, *, results=None, overwrite=False, comm=None, verbose=False):
