@@ -1,4 +1,4 @@
-// tunica image --flow: a computed beat as velocity images.
+// tunica synthesise --flow: a computed beat as velocity images.
 #pragma once
 
 #include "file_command.hpp"

@@ -32,9 +32,8 @@ struct Parameters;  // wall/parameters.hpp
 
 namespace tunica::case_file {
 
-struct MeshCase;      // mesh_settings.hpp
-struct ComparedLaw;   // compared_law.hpp
-struct MeasuredCase;  // measured_settings.hpp
+struct MeshCase;     // mesh_settings.hpp
+struct ComparedLaw;  // compared_law.hpp
 
 // --- what is computed ---------------------------------------------------------------------------------------------
 
@@ -164,7 +163,6 @@ struct Case {
   std::optional<PrestressCase> prestress;      ///< what `tunica prestress` shall do
   std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
   std::optional<analysis::PostSettings> post;  ///< what `tunica post` shall make of the results
-  Boxed<MeasuredCase> measured;                ///< what `post` compares with
   std::optional<ReportSettings> report;        ///< the page that is written last
   std::vector<std::pair<std::string, Boxed<ComparedLaw>>> compare;  ///< laws that `tunica compare` puts in the wall
   coupling::NewtonSettings newton;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tunica/base/error.hpp"
+#include "tunica/config/document.hpp"
 #include "tunica/files/csv_file.hpp"
 
 namespace tunica::case_file {
@@ -79,6 +80,14 @@ Schema<MeasuredPlane> MeasuredPlane::schema() {
       .check([](const MeasuredPlane& p, Problems& problems) {
         if (!(norm(p.normal) > 0)) problems.add("normal", "has no length", "write a direction, such as [0, 0, -1]");
       });
+}
+
+std::optional<MeasuredCase> read_measured(const std::string& yaml, const std::filesystem::path& file) {
+  const config::Document document(yaml, file.string());
+  if (!document.has("measured")) return std::nullopt;
+  return config::parse_document(MeasuredCase::schema(), document.part("measured"),
+                                {.name = file.string(), .folder = file.parent_path()})
+      .value;
 }
 
 std::vector<Problem> check_measured(const MeasuredCase& measured, const std::vector<std::string>& points) {

@@ -156,7 +156,7 @@ Document post_document(const Chain& chain, const fs::path& folder) {
   if (!has_window && document.has("time.cycles.period")) figures.set("period", document.text("time.cycles.period"));
   document.set("post", figures);
   document.set("post.output", ".");
-  if (chain.settings.measured) document.set("measured", case_for(chain, folder).part("measured"));
+  if (chain.document.has("measured")) document.set("measured", case_for(chain, folder).part("measured"));
   document.set("output.directory", path_to(folder_of(chain, stage("run")), folder));
   return document;
 }

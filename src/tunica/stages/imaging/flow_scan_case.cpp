@@ -143,7 +143,7 @@ config::Schema<FlowScanCase> FlowScanCase::schema() {
   using F = FlowScanCase;
   config::Schema<flow::PhaseContrast> scan("scan", "Phase-contrast MRI of three components.");
   flow::PhaseContrast::add_to(scan);
-  return config::Schema<F>("tunica image --flow", "File of `tunica image --flow`, in YAML like a case file.")
+  return config::Schema<F>("tunica synthesise --flow", "File of `tunica synthesise --flow`, in YAML like a case file.")
       .file("case", &F::case_file,
             "Case file that was run; in a folder of `tunica run` that of its stage: run/case.yaml")
       .folder("results", &F::results, "Folder of its fields; that of the case when left out")

@@ -1,4 +1,4 @@
-// The file of `tunica image --flow`: a computed beat and how its velocities are imaged.
+// The file of `tunica synthesise --flow`: a computed beat and how its velocities are imaged.
 #pragma once
 
 #include <filesystem>

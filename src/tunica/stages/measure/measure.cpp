@@ -32,8 +32,10 @@ Schema<ProfileSettings> profile_schema() {
   return Schema<ProfileSettings>("profile", "Velocities of an opening in space and time, as the condition of a run.")
       .text("opening", &ProfileSettings::opening, "Face of the lumen")
       .quantity("smoothing", &ProfileSettings::smoothing, config::dimension::length, config::above(0),
-                "Length of correlation of the profile; when left out half the radius of the opening")
+                "Length of correlation of the profile; when left out the radius of the opening")
       .plausible("1 mm", "30 mm")
+      .number("slab", &ProfileSettings::slab, config::range(0.5, 30), "Voxels behind the opening that tell of it")
+      .by_default()
       .integer("times", &ProfileSettings::times, config::range(10, 5000),
                "Of the table, between the frames by periodic cubic splines")
       .by_default();
@@ -93,7 +95,7 @@ struct Prepared {
 };
 
 Prepared prepare(const MeasureCase& c, const VesselOfCase& vessel, const files::Say& say) {
-  Prepared p{.series = flow::read_series(c.velocity, "velocity"), .lumen = {}, .noise = {}, .done = {}};
+  Prepared p{.series = flow::read_series(c.velocity.value(), "velocity"), .lumen = {}, .noise = {}, .done = {}};
   auto& series = p.series;
   const auto& size = series.frame.size;
   say(fmt::format("velocities: {} x {} x {} voxels, {} frames over {:.4g} s", size[0], size[1], size[2],
@@ -167,27 +169,55 @@ void plot_curves(const std::vector<flow::FlowCurve>& curves, const std::vector<d
                        .y_label = "flow [ml/s]"});
 }
 
-/// The table of the profile and the lines of the case that read it.
-void write_profile(const MeasureCase& c, const VesselOfCase& vessel, const Prepared& p, const flow::FlowCurve* measured,
+/// Writes the table of a profile; the lines of the case that read it go to `say`.
+void write_profile(const MeasureCase& c, const flow::OpeningMesh& opening, const flow::NodalCourse& course,
                    const files::Say& say) {
-  const auto& face = vessel.face(c.profile->opening);
-  const auto opening = flow::opening_mesh(vessel.mesh, face);
-  const auto section = flow::opening_section(vessel.mesh, face);
+  const auto file = c.output / fmt::format("profile_{}.csv", opening.name);
+  flow::write_profile_table(opening, flow::resampled(course, static_cast<std::size_t>(c.profile->times)), file);
+  say(
+      fmt::format("\nThe velocities of {0} at its {1} nodes are the condition\n\n"
+                  "boundary:\n  {0}:\n    profile: {{table: {2}, length_unit: m, unit: m/s, period: {3:.9g} s, "
+                  "interpolation: nearest}}",
+                  opening.name, opening.points.size(), fs::absolute(file).lexically_normal().string(), course.period));
+}
+
+/// `measured`: the flow of the opening, where it was found already.
+flow::NodalCourse fitted_profile(const MeasureCase& c, const VesselOfCase& vessel, const Prepared& p,
+                                 const flow::OpeningMesh& opening, const flow::FlowCurve* measured,
+                                 const files::Say& say) {
+  const auto section = flow::opening_section(vessel.mesh, vessel.face(opening.name));
+  const double radius = std::sqrt(section.area / M_PI);
+  const auto length = c.profile->smoothing ? c.profile->smoothing : c.smoothing;
   const flow::ProfileFit fit(p.series, p.lumen, section, p.noise,
-                             {.length = c.profile->smoothing ? c.profile->smoothing : c.smoothing, .slab = c.slab});
+                             {.length = length.value_or(radius), .slab = c.profile->slab});
+  say(fmt::format("profile of {}: {} voxels, smoothed over {:.3g} mm", opening.name, fit.voxels(), fit.length() / mm));
   std::vector<double> outflow;
-  const double sign = c.profile->opening == vessel.inlet ? -1 : 1;
+  const double sign = opening.name == vessel.inlet ? -1 : 1;
   for (std::size_t k = 0; k < p.series.frames(); ++k)
     outflow.push_back(measured ? sign * measured->flow[k] : fit.flow(k));
-  const auto course = flow::resampled(flow::profile_at_nodes(p.series, fit, opening, outflow),
-                                      static_cast<std::size_t>(c.profile->times));
-  const auto file = c.output / fmt::format("profile_{}.csv", c.profile->opening);
-  flow::write_profile_table(opening, course, file);
-  say(
-      fmt::format("\nThe velocities of {0} at its {1} nodes, smoothed over {2:.3g} mm, are the condition\n\n"
-                  "boundary:\n  {0}:\n    profile: {{table: {3}, length_unit: m, unit: m/s, period: {4:.9g} s, "
-                  "interpolation: nearest}}",
-                  c.profile->opening, opening.points.size(), fit.length() / mm, file.string(), p.series.period));
+  return flow::profile_at_nodes(p.series, fit, opening, outflow);
+}
+
+void check_sources(const MeasureCase& c, Problems& problems) {
+  if (c.velocity.has_value() == c.plane.has_value())
+    problems.add("", c.velocity ? "has `velocity` and `plane`" : "has no velocities", "give `velocity`, or `plane`");
+  if (c.plane && !c.profile)
+    problems.add("profile", "is missing: velocities on a plane are laid onto an opening",
+                 "add `profile: {opening: lumen_inlet}`");
+  if (c.plane && !c.planes.empty())
+    problems.add("planes", "are measured in velocity images, and `plane` has none", "remove them");
+}
+
+/// Velocities on a plane become a profile, and nothing else.
+void lay_plane_onto_opening(const MeasureCase& c, const VesselOfCase& vessel, const files::Say& say) {
+  const auto plane = flow::read_plane_series(*c.plane, "plane");
+  const auto opening = flow::opening_mesh(vessel.mesh, vessel.face(c.profile->opening));
+  double mean = 0;
+  const auto weights = flow::frame_weights(plane.times, plane.period);
+  for (std::size_t k = 0; k < plane.times.size(); ++k) mean += weights[k] * plane.flow(k);
+  say(fmt::format("plane: {} frames of {} points, mean flow {:.4g} ml/s", plane.times.size(), plane.points.size(),
+                  mean / ml));
+  write_profile(c, opening, flow::plane_at_nodes(plane, opening, c.plane->turn), say);
 }
 
 }  // namespace
@@ -197,6 +227,8 @@ Schema<MeasureCase> MeasureCase::schema() {
   return Schema<M>("tunica measure", "File of `tunica measure`, in YAML like a case file.")
       .file("case", &M::case_file, "Case file whose lumen is looked at; its mesh is there")
       .section("velocity", &M::velocity, flow::SeriesFiles::schema(), "Velocity images over the beat")
+      .section("plane", &M::plane, flow::PlaneFiles::schema(),
+               "Or velocities on a plane, of this or another vessel: they are laid onto the opening of `profile`")
       .choice("background", &M::background,
               {{"none", -1}, {"constant", 0}, {"linear", 1}, {"quadratic", 2}, {"cubic", 3}},
               "Offset by eddy currents that is fitted to static tissue and taken away: a polynomial in space")
@@ -217,7 +249,8 @@ Schema<MeasureCase> MeasureCase::schema() {
       .by_default()
       .section("profile", &M::profile, profile_schema(), "Velocities of an opening as the condition of a run")
       .path("output", &M::output, "Folder of the results, relative to that of this file")
-      .by_default("flow");
+      .by_default("flow")
+      .check(check_sources);
 }
 
 config::Parsed<MeasureCase> read_measure_case(const fs::path& file) {
@@ -234,6 +267,7 @@ void measure(const MeasureCase& c, bool overwrite, const files::Say& say) {
   files::try_outputs(c.output, {"flows.csv", "flows.json", "flows.svg"});
   const auto vessel = vessel_of_case(c.case_file);
   const auto sections = find_sections(c, vessel);
+  if (c.plane) return lay_plane_onto_opening(c, vessel, say);
   const auto p = prepare(c, vessel, say);
   std::vector<flow::FlowCurve> curves;
   std::vector<int> signs;
@@ -279,7 +313,8 @@ void measure(const MeasureCase& c, bool overwrite, const files::Say& say) {
   if (c.profile) {
     const auto at =
         std::find_if(curves.begin(), curves.end(), [&](const auto& q) { return q.name == c.profile->opening; });
-    write_profile(c, vessel, p, at == curves.end() ? nullptr : &*at, say);
+    const auto opening = flow::opening_mesh(vessel.mesh, vessel.face(c.profile->opening));
+    write_profile(c, opening, fitted_profile(c, vessel, p, opening, at == curves.end() ? nullptr : &*at, say), say);
   }
   files::write_atomically(c.output / "flows.json", config::json_text(report));
   say(fmt::format("\nflows.csv, flows.json, flows.svg in {}", c.output.string()));

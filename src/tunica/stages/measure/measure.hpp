@@ -10,6 +10,7 @@
 #include "tunica/case/measured_settings.hpp"
 #include "tunica/config/schema.hpp"
 #include "tunica/files/phases.hpp"
+#include "tunica/flow_imaging/plane_series.hpp"
 #include "tunica/flow_imaging/read_series.hpp"
 
 namespace tunica::stages {
@@ -18,17 +19,19 @@ namespace tunica::stages {
 struct ProfileSettings {
   std::string opening;
   std::optional<double> smoothing;  ///< m
+  double slab = 4;                  ///< voxels
   std::int64_t times = 200;         ///< of the table
 };
 
 /// The file of `tunica measure`.
 struct MeasureCase {
   std::filesystem::path case_file;
-  flow_imaging::SeriesFiles velocity;
-  std::optional<int> background = 1;  ///< order of the polynomial of the offset; none: it is left
-  std::optional<double> noise;        ///< of a voxel [m/s]; none: found in static tissue
-  std::optional<double> smoothing;    ///< m
-  double slab = 1.5;                  ///< voxels
+  std::optional<flow_imaging::SeriesFiles> velocity;
+  std::optional<flow_imaging::PlaneFiles> plane;  ///< in place of `velocity`: a profile alone
+  std::optional<int> background = 1;              ///< order of the polynomial of the offset; none: it is left
+  std::optional<double> noise;                    ///< of a voxel [m/s]; none: found in static tissue
+  std::optional<double> smoothing;                ///< m
+  double slab = 1.5;                              ///< voxels
   std::vector<std::pair<std::string, case_file::MeasuredPlane>> planes;
   bool openings = true;
   bool balance = true;

@@ -207,9 +207,9 @@ std::string place_of(const Measurement& m) {
 
 }  // namespace
 
-MeasuredSections find_measured_sections(const case_file::Case& c, const mesh::MeshData& data) {
+MeasuredSections find_measured_sections(const case_file::MeasuredCase& measured, const case_file::Case& c,
+                                        const mesh::MeshData& data) {
   MeasuredSections sections;
-  if (!c.measured) return sections;
   std::vector<std::string> known;
   for (const auto& face : data.faces)
     if (data.regions[static_cast<std::size_t>(face.region)].kind == mesh::RegionKind::lumen) known.push_back(face.name);
@@ -217,7 +217,7 @@ MeasuredSections find_measured_sections(const case_file::Case& c, const mesh::Me
   std::erase_if(known, [&](const auto& n) { return std::find(sticks.begin(), sticks.end(), n) != sticks.end(); });
   std::vector<Problem> problems;
   for (const auto& kind : case_file::measurement_kinds())
-    for (const auto& [name, m] : (*c.measured).*kind.entries) {
+    for (const auto& [name, m] : measured.*kind.entries) {
       const auto where = fmt::format("measured.{}.{}", kind.key, name);
       if (m.opening && std::find(known.begin(), known.end(), *m.opening) == known.end())
         problems.push_back({where + ".opening", fmt::format("the lumen has no opening '{}'", *m.opening),
@@ -247,11 +247,11 @@ void add_sections(const MeasuredSections& sections, const analysis::FieldFrame& 
   }
 }
 
-ordered_json compare_measured(const Findings& f, const case_file::Case& c, const std::filesystem::path& folder,
-                              ordered_json& files) {
+ordered_json compare_measured(const Findings& f, const case_file::MeasuredCase& measured,
+                              const std::filesystem::path& folder, ordered_json& files) {
   ordered_json list = ordered_json::array();
   for (const auto& kind : case_file::measurement_kinds())
-    for (const auto& [name, m] : (*c.measured).*kind.entries) {
+    for (const auto& [name, m] : measured.*kind.entries) {
       const auto computed = computed_of(f, name, m, kind);
       std::optional<Course> course;
       if (m.curve) course = course_of(f, m, computed);

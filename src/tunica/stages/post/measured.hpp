@@ -19,7 +19,8 @@ namespace tunica::stages::post {
 using MeasuredSections = std::vector<std::pair<std::string, flow_imaging::CrossSection>>;
 
 /// Throws InputError with all openings that the lumen does not have and all planes that miss it.
-MeasuredSections find_measured_sections(const case_file::Case& c, const mesh::MeshData& data);
+MeasuredSections find_measured_sections(const case_file::MeasuredCase& measured, const case_file::Case& c,
+                                        const mesh::MeshData& data);
 
 /// Area, flow and pressure of the sections in one frame, for the table of figures.
 void add_sections(const MeasuredSections& sections, const analysis::FieldFrame& frame,
@@ -28,7 +29,7 @@ void add_sections(const MeasuredSections& sections, const analysis::FieldFrame& 
 /// Compares each measurement with what is computed in the window. Writes measured_<name>.csv and .svg into the folder
 /// and adds their names to `files`. Returns the list `measured` of post.json. A measured time t is that of the window t
 /// after its start, round its length. Throws InputError when points.csv of the run lacks a point.
-nlohmann::ordered_json compare_measured(const Findings& f, const case_file::Case& c,
+nlohmann::ordered_json compare_measured(const Findings& f, const case_file::MeasuredCase& measured,
                                         const std::filesystem::path& folder, nlohmann::ordered_json& files);
 
 /// The list as lines of text.

@@ -1,7 +1,8 @@
+#include "tunica/stages/report/measured_part.hpp"
+
 #include <fmt/format.h>
 
 #include "tunica/drawing/page.hpp"
-#include "tunica/stages/report/parts.hpp"
 
 namespace tunica::stages::report {
 

@@ -56,8 +56,6 @@ std::string outlets_part(const Results& r);
 std::string run_part(const Results& r);
 /// Tables of the cycle, and the plots where they belong; a page has each of `plots` once.
 std::string cycle_part(const Results& r, const std::vector<viewer::Plot>& plots);
-/// The table of measurements beside what is computed, and a drawing of each; empty where nothing was measured.
-std::string measured_part(const Results& r);
 std::string pictures_part(const Results& r, const files::Say& say);
 
 }  // namespace tunica::stages::report

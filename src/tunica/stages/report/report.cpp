@@ -13,6 +13,7 @@
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/stages/beat.hpp"
+#include "tunica/stages/report/measured_part.hpp"
 #include "tunica/stages/report/parts.hpp"
 #include "tunica/viewer/view_page.hpp"
 
