@@ -78,7 +78,7 @@ TEST_F(MeshCommand, TheExampleFromGeometryToAFirstStep) {
             "boundary:\n  lumen_inlet: {flow: {value: 100 ml/s, ramp_time: 50 ms}}\n"
             "  \"lumen_*\": {resistance: 1e9 Pa s/m^3}\n  \"wall_*\": fixed\n  wall_outer: free\n"
             "time: {step: 1 ms, steps: 2}\noutput: {directory: step}\n");
-  ASSERT_EQ(tunica("run out/mesh/step.yaml --until 1"), 0) << printed();
+  ASSERT_EQ(tunica("run out/mesh/step.yaml --until 1 --verbose"), 0) << printed();
   EXPECT_NE(printed().find("step 1/2"), std::string::npos) << printed();
 }
 
