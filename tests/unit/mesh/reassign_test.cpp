@@ -8,6 +8,7 @@
 #include <set>
 
 #include "text.hpp"
+#include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/submesh.hpp"
@@ -131,7 +132,7 @@ TEST(Reassign, WithoutAWallElementsAreTakenAway) {
 
 TEST(Reassign, RefusesToReachAnOpening) {
   const auto before = some_tube(1e-3);
-  const auto message = message_of([&] { reassign(before, plugged(before, 0, 5e-3, "plug")); });
+  const auto message = message_of<InputError>([&] { reassign(before, plugged(before, 0, 5e-3, "plug")); });
   EXPECT_NE(message.find("lumen_inlet"), std::string::npos) << message;
   EXPECT_NE(message.find("farther away"), std::string::npos);
 }

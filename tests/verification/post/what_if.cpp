@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* rigid_case =
     "analysis: flow\nelements: linear\n"
-    "mesh: {geometry: {parametric: {}}, size: 7 mm}\n"
+    "mesh: {geometry: {parametric: {}}, size: {edge: 7 mm}}\n"
     "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
     "boundary:\n  lumen_inlet: {flow: {value: 200 ml/s, ramp_time: 60 ms}}\n  lumen_wall: no_slip\n"
     "  \"lumen_*\": {resistance: 4e8 Pa s/m^3}\n"
