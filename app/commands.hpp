@@ -23,6 +23,7 @@ void add_converge(CLI::App& app);
 void add_export(CLI::App& app);
 void add_fibres(CLI::App& app);
 void add_fit(CLI::App& app);
+void add_follow_up(CLI::App& app);
 void add_synthesise(CLI::App& app);
 void add_import(CLI::App& app);
 void add_manual(CLI::App& app);
@@ -42,5 +43,6 @@ void add_validate(CLI::App& app);
 void add_vary(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_view(CLI::App& app);
+void add_what_if(CLI::App& app);
 
 }  // namespace tunica::app

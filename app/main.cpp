@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   tunica::app::add_export(app);
   tunica::app::add_fibres(app);
   tunica::app::add_fit(app);
+  tunica::app::add_follow_up(app);
   tunica::app::add_synthesise(app);
   tunica::app::add_import(app);
   tunica::app::add_manual(app);
@@ -78,6 +79,7 @@ int run(int argc, char** argv) {
   tunica::app::add_vary(app);
   tunica::app::add_verify(app);
   tunica::app::add_view(app);
+  tunica::app::add_what_if(app);
   tunica::app::add_quiet(app);
   try {
     refuse_unknown_command(app, argc, argv);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 namespace tunica::analysis {
 
@@ -41,6 +42,21 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y) {
     xy += (x[k] - mx) * (y[k] - my);
   }
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : nan;
+}
+
+std::pair<std::vector<double>, std::vector<double>> finite_pairs(std::span<const double> x, std::span<const double> y) {
+  if (x.size() != y.size()) throw std::invalid_argument("rank_correlation: numbers of values differ");
+  std::pair<std::vector<double>, std::vector<double>> given;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!std::isfinite(x[k]) || !std::isfinite(y[k])) continue;
+    given.first.push_back(x[k]);
+    given.second.push_back(y[k]);
+  }
+  return given;
+}
+
+double rank_correlation_of(const std::vector<double>& x, const std::vector<double>& y) {
+  return x.size() < 3 ? nan : correlation(ranks(x), ranks(y));
 }
 
 /// f at A, B and the AB_i, by row.
@@ -91,14 +107,37 @@ double deviation(const std::vector<double>& values) {
 }  // namespace
 
 double rank_correlation(std::span<const double> x, std::span<const double> y) {
-  if (x.size() != y.size()) throw std::invalid_argument("rank_correlation: numbers of values differ");
-  std::vector<double> given_x, given_y;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    if (!std::isfinite(x[k]) || !std::isfinite(y[k])) continue;
-    given_x.push_back(x[k]);
-    given_y.push_back(y[k]);
+  const auto [given_x, given_y] = finite_pairs(x, y);
+  return rank_correlation_of(given_x, given_y);
+}
+
+RankCorrelation rank_correlation_interval(std::span<const double> x, std::span<const double> y, std::size_t block,
+                                          std::size_t bootstraps, std::uint64_t seed) {
+  if (block == 0) throw std::invalid_argument("rank_correlation_interval: a block of none");
+  const auto [given_x, given_y] = finite_pairs(x, y);
+  const std::size_t n = given_x.size();
+  RankCorrelation result{rank_correlation_of(given_x, given_y), nan, nan, n};
+  if (!std::isfinite(result.value)) return result;
+  std::mt19937_64 random(seed);
+  std::vector<double> values, sample_x(n), sample_y(n);
+  for (std::size_t k = 0; k < bootstraps; ++k) {
+    for (std::size_t filled = 0; filled < n;) {
+      const std::size_t first = random() % n;
+      for (std::size_t i = 0; i < block && filled < n; ++i, ++filled) {
+        sample_x[filled] = given_x[(first + i) % n];
+        sample_y[filled] = given_y[(first + i) % n];
+      }
+    }
+    if (const double value = rank_correlation_of(sample_x, sample_y); std::isfinite(value)) values.push_back(value);
   }
-  return given_x.size() < 3 ? nan : correlation(ranks(given_x), ranks(given_y));
+  if (values.size() < 2) return result;
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  result.low = at(0.025);
+  result.high = at(0.975);
+  return result;
 }
 
 SobolIndices sobol_indices(std::span<const double> values, std::size_t rows, std::size_t dimensions,

@@ -13,6 +13,19 @@ namespace tunica::analysis {
 /// std::invalid_argument for numbers of values that differ.
 double rank_correlation(std::span<const double> x, std::span<const double> y);
 
+struct RankCorrelation {
+  double value;           ///< as rank_correlation()
+  double low, high;       ///< percentiles 2.5 and 97.5 over bootstrap samples; NaN where `value` is
+  std::size_t pairs = 0;  ///< with two finite entries
+};
+
+/// With an interval from samples of whole blocks of `block` neighbours, taken round the end (circular block bootstrap:
+/// Politis & Romano, 1992): pairs that stand next to each other, as stations along a vessel do, may depend on each
+/// other. A block of 1 takes pairs as independent. Throws std::invalid_argument as rank_correlation(), and for a block
+/// of 0.
+RankCorrelation rank_correlation_interval(std::span<const double> x, std::span<const double> y, std::size_t block,
+                                          std::size_t bootstraps = 2000, std::uint64_t seed = 1);
+
 /// Shares of the variance that one parameter accounts for: alone, and with all that it does together with others.
 struct SobolIndex {
   double first, total;

@@ -1,5 +1,5 @@
-// What the files of `tunica material`, `tunica fit`, `tunica mesh` and `tunica study` may hold, for callers that need
-// not know what it fills.
+// What the files of `tunica material`, `tunica fit`, `tunica mesh`, `tunica study` and `tunica follow-up` may hold, for
+// callers that need not know what it fills.
 #pragma once
 
 #include <memory>
@@ -12,5 +12,7 @@ std::shared_ptr<const config::Description> material_description();
 std::shared_ptr<const config::Description> fit_description();
 std::shared_ptr<const config::Description> mesh_description();
 std::shared_ptr<const config::Description> study_description();
+std::shared_ptr<const config::Description> follow_up_description();
+std::shared_ptr<const config::Description> what_if_description();
 
 }  // namespace tunica::case_file

@@ -16,6 +16,7 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/foresight.hpp"
 #include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/side_by_side.hpp"
 
 namespace tunica::pipeline {
 
@@ -50,11 +51,7 @@ fs::path write_variant(const Chain& chain, const std::string& name) {
   return file;
 }
 
-/// One line of the comparison: a stress of a region, or a displacement.
-struct Line {
-  std::string what, unit;
-  std::vector<double> values;  ///< one for each law
-};
+using Line = ComparedLine;  ///< a stress of a region, or a displacement
 
 void add(std::vector<Line>& lines, const std::string& what, const std::string& unit, std::size_t law, std::size_t laws,
          const json& value) {
@@ -114,28 +111,11 @@ std::string plot_of(const std::vector<Line>& lines, const std::string& title, co
 
 void write_comparison(const Chain& chain, const std::vector<std::string>& names) {
   const auto lines = read_figures(chain, names);
-  std::string csv = "what,unit";
-  std::vector<std::string> head = {"", "unit"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    csv += "," + names[k];
-    head.push_back(fmt::format("{}: {}", k + 1, drawing::page::escaped(names[k])));
-  }
-  csv += "\n";
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& line : lines) {
-    csv += line.what + "," + line.unit;
-    auto& cells = rows.emplace_back(std::vector<std::string>{drawing::page::escaped(line.what), line.unit});
-    for (const double v : line.values) {
-      csv += fmt::format(",{:.10g}", v);
-      cells.push_back(std::isfinite(v) ? fmt::format("{:.4g}", v) : "–");
-    }
-    csv += "\n";
-  }
   const fs::path folder = chain.output / "compare";
-  files::write_atomically(folder / "compare.csv", csv);
+  write_compared_csv(folder / "compare.csv", names, lines);
   files::write_atomically(
       folder / "compare.html",
-      drawing::page::begin("Wall laws side by side") + drawing::page::table(head, rows) +
+      drawing::page::begin("Wall laws side by side") + compared_table(names, lines) +
           plot_of(lines, "von Mises stress, 95 % of the volume below", "von_mises_stress p95") +
           plot_of(lines, "first principal stress, 95 % of the volume below", "first_principal_stress p95") +
           plot_of(lines, "largest displacement of the flap", "flap largest") + drawing::page::end());

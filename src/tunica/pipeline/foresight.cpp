@@ -293,6 +293,15 @@ config::Document with_law(const config::Document& document, const std::string& n
   return changed;
 }
 
+std::vector<std::string> openings_to_come(const case_file::Case& c) {
+  if (!c.mesh) return {};
+  const auto& geometry = *c.mesh->geometry;
+  const auto* files = std::get_if<meshing::SurfaceFiles>(&geometry);
+  const auto* image = std::get_if<meshing::ImageGeometry>(&geometry);
+  if ((files && files->openings.empty()) || (image && image->surface.openings.empty())) return {};
+  return std::visit([&](const auto& shape) { return openings_of(shape, c); }, geometry);
+}
+
 Problems foreseen_problems(const Chain& chain) {
   Problems problems;
   if (chain.settings.mesh) check_faces_to_come(chain.settings, problems);

@@ -1,0 +1,170 @@
+#include "tunica/pipeline/what_if_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tunica/drawing/page.hpp"
+#include "tunica/drawing/plot.hpp"
+#include "tunica/files/atomic_file.hpp"
+#include "tunica/pipeline/figures.hpp"
+#include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/side_by_side.hpp"
+
+namespace tunica::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace page = drawing::page;
+using nlohmann::json;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// The case and its variants, by name.
+struct Computed {
+  std::vector<std::string> names;
+  std::vector<json> post;
+  std::vector<std::map<std::string, double>> figures;
+};
+
+Computed read_all(const WhatIfPlan& plan, const Chain& chain) {
+  Computed all;
+  const auto add = [&](const std::string& name, const fs::path& file) {
+    all.names.push_back(name);
+    all.post.push_back(read_json(file));
+    all.figures.push_back(read_figures(file));
+  };
+  const auto post =
+      std::find_if(stages().begin(), stages().end(), [](const Stage& s) { return s.name == std::string("post"); });
+  add("as it is", folder_of(chain, *post) / "post.json");
+  for (std::size_t k = 0; k < plan.settings.variants.size(); ++k)
+    add(plan.settings.variants[k].first, plan.folder_of(k) / "post/post.json");
+  return all;
+}
+
+/// Mean over the stations that have a false lumen.
+double over_dissection(const json& post, const char* part, const char* figure) {
+  double sum = 0;
+  int count = 0;
+  for (const auto& station : post.value("stations", json::array())) {
+    if (!station.contains("true_minus_false_pressure") || !station.contains(part)) continue;
+    const auto& of_part = std::string(part) == "true_minus_false_pressure" ? station[part] : station[part]["pressure"];
+    sum += of_part.at(figure).get<double>();
+    ++count;
+  }
+  return count > 0 ? sum / count : nan;
+}
+
+/// Largest flow along the false lumen at any station, over the beat's mean.
+double flow_along_false_lumen(const json& post) {
+  double largest = nan;
+  for (const auto& station : post.value("stations", json::array()))
+    if (station.contains("false_lumen")) {
+      const double flow = station["false_lumen"].at("flow_downstream_mean_ml_s").get<double>();
+      if (!(std::abs(flow) <= std::abs(largest))) largest = flow;
+    }
+  return largest;
+}
+
+/// What a reader asks first.
+std::vector<ComparedLine> main_lines(const Computed& all) {
+  std::vector<ComparedLine> lines = {{"pressure in the false lumen", "mmHg", {}},
+                                     {"pressure in the true lumen beside it", "mmHg", {}},
+                                     {"pressure, true less false lumen", "mmHg", {}},
+                                     {"largest mean flow along the false lumen", "ml/s", {}}};
+  for (const auto& post : all.post) {
+    lines[0].values.push_back(over_dissection(post, "false_lumen", "mean_mmHg"));
+    lines[1].values.push_back(over_dissection(post, "true_lumen", "mean_mmHg"));
+    lines[2].values.push_back(over_dissection(post, "true_minus_false_pressure", "mean_mmHg"));
+    lines[3].values.push_back(flow_along_false_lumen(post));
+  }
+  return lines;
+}
+
+/// "openings/lumen_inlet/pressure/mean_mmHg": its unit, as far as it stands in the last word.
+std::string unit_of(const std::string& path) {
+  for (const auto& [ending, unit] :
+       {std::pair{"_mmHg", "mmHg"}, {"_ml_s", "ml/s"}, {"_ml", "ml"}, {"_mm2", "mm^2"}, {"_mm", "mm"}})
+    if (path.ends_with(ending)) return unit;
+  for (const auto& [part, unit] : {std::pair{"_kPa/", "kPa"}, {"_Pa/", "Pa"}})
+    if (path.find(part) != std::string::npos) return unit;
+  return "";
+}
+
+std::vector<ComparedLine> all_lines(const Computed& all) {
+  std::map<std::string, ComparedLine> lines;
+  for (std::size_t k = 0; k < all.names.size(); ++k)
+    for (const auto& [path, value] : all.figures[k]) {
+      if (!fits_any(default_quantities(), path) || path.starts_with("stations/")) continue;
+      auto& line =
+          lines.try_emplace(path, ComparedLine{path, unit_of(path), std::vector<double>(all.names.size(), nan)})
+              .first->second;
+      line.values[k] = value;
+    }
+  std::vector<ComparedLine> list;
+  for (auto& [path, line] : lines) list.push_back(std::move(line));
+  return list;
+}
+
+std::string plot_along(const Computed& all, const std::string& title, const std::string& y_label,
+                       const std::function<double(const json&)>& value) {
+  std::vector<drawing::Series> series;
+  bool some = false;
+  for (std::size_t k = 0; k < all.names.size(); ++k) {
+    auto& s = series.emplace_back(drawing::Series{.name = all.names[k], .x = {}, .y = {}});
+    for (const auto& station : all.post[k].value("stations", json::array())) {
+      s.x.push_back(station.at("distance_mm").get<double>());
+      s.y.push_back(value(station));
+      some = some || std::isfinite(s.y.back());
+    }
+  }
+  if (!some) return "";
+  return page::drawing(
+      drawing::draw_plot(series, {.title = title, .x_label = "distance along the aorta [mm]", .y_label = y_label}));
+}
+
+std::string plots(const Computed& all) {
+  const auto of_lumen = [](const char* lumen, const char* figure) {
+    return [lumen, figure](const json& station) {
+      if (!station.contains(lumen)) return nan;
+      return std::string(figure) == "flow" ? station[lumen].at("flow_downstream_mean_ml_s").get<double>()
+                                           : station[lumen].at("pressure").at("mean_mmHg").get<double>();
+    };
+  };
+  return plot_along(all, "Pressure, true less false lumen, mean over the beat", "pressure [mmHg]",
+                    [](const json& station) {
+                      return station.contains("true_minus_false_pressure")
+                                 ? station["true_minus_false_pressure"].at("mean_mmHg").get<double>()
+                                 : nan;
+                    }) +
+         plot_along(all, "Mean pressure in the false lumen", "pressure [mmHg]", of_lumen("false_lumen", "pressure")) +
+         plot_along(all, "Mean pressure in the true lumen", "pressure [mmHg]", of_lumen("true_lumen", "pressure")) +
+         plot_along(all, "Mean flow along the false lumen", "flow [ml/s]", of_lumen("false_lumen", "flow"));
+}
+
+}  // namespace
+
+std::string write_what_if(const WhatIfPlan& plan, const Chain& chain) {
+  const Computed all = read_all(plan, chain);
+  auto lines = main_lines(all);
+  const auto first = compared_table(all.names, lines);
+  const auto more = all_lines(all);
+  lines.insert(lines.end(), more.begin(), more.end());
+  write_compared_csv(plan.output / "what_if.csv", all.names, lines);
+  const std::string& title = plan.settings.title;
+  files::write_atomically(
+      plan.output / "what_if.html",
+      page::begin(fmt::format("What if{}{}", title.empty() ? "" : ": ", title)) +
+          fmt::format(
+              "<p>{} as it is, and with other anatomy or loads. Pressures and flows are means over the beat, and "
+              "those of lumens over the stations that have both.</p>\n",
+              page::escaped(plan.case_file.filename().string())) +
+          first + plots(all) + "<h2>All figures</h2>\n" + compared_table(all.names, more) + page::end());
+  return fmt::format("side by side: {}", (plan.output / "what_if.html").string());
+}
+
+}  // namespace tunica::pipeline

@@ -1,0 +1,12 @@
+// The table and the page of a what-if.
+#pragma once
+
+#include "tunica/pipeline/what_if_plan.hpp"
+
+namespace tunica::pipeline {
+
+/// Writes what_if.csv and what_if.html into the folder of results, from the figures of the case and of its variants;
+/// returns a line for the terminal. Throws SolverError where figures do not read. Not collective.
+std::string write_what_if(const WhatIfPlan& plan, const Chain& chain);
+
+}  // namespace tunica::pipeline

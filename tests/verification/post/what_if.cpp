@@ -1,0 +1,83 @@
+// What if: a tear of the idealised dissection closed, between rigid walls. With one tear alone nothing flows through
+// the false lumen, and its pressure is that at the tear which is left: an occluded exit raises it, an occluded entry
+// lowers it (Tsai et al., J Vasc Surg 47, 2008, 844; Rudenick et al., J Vasc Surg 57, 2013, 464).
+#include "tunica/pipeline/what_if.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "shared_folder.hpp"
+#include "tunica/base/error.hpp"
+#include "tunica/files/csv_file.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "verification/fluid/flow_case.hpp"
+
+namespace tunica::verification {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* rigid_case =
+    "analysis: flow\nelements: linear\n"
+    "mesh: {geometry: {parametric: {}}, size: {edge: 7 mm}}\n"
+    "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}}\n"
+    "boundary:\n  lumen_inlet: {flow: {value: 200 ml/s, ramp_time: 60 ms}}\n  lumen_wall: no_slip\n"
+    "  \"lumen_*\": {resistance: 4e8 Pa s/m^3}\n"
+    "time: {step: 5 ms, steps: 40, rho_infinity: 0.2}\noutput: {directory: results, every: 1}\n"
+    "post: {spacing: 10 mm, from: 150 ms, until: 200 ms}\n";
+
+/// what_if.csv: values of the case and its variants, by what they are.
+std::map<std::string, std::map<std::string, double>> table_of(const fs::path& file) {
+  const auto table = files::read_table(file, "");
+  std::map<std::string, std::map<std::string, double>> values;
+  for (const auto& row : table.rows)
+    for (std::size_t c = 2; c < table.headers.size(); ++c)
+      values[row.cells[0]][table.headers[c]] = row.cells[c] == "nan" ? NAN : table.number(row, c);
+  return values;
+}
+
+TEST(WhatIf, ATearThatIsClosedMovesThePressureOfTheFalseLumen) {
+  const test::SharedFolder folder;
+  folder.write("case.yaml", rigid_case);
+  pipeline::WhatIfRequest request;
+  request.file = folder.write("what_if.yaml",
+                              "case: case.yaml\nvariants:\n  exit_closed: {close_tears: tear_2}\n"
+                              "  entry_closed: {close_tears: tear_1}\n  more: {stroke_volume: 1.2}\n");
+  ASSERT_EQ(pipeline::what_if(request, MPI_COMM_WORLD, stdout), 0);
+  parallel::on_root(MPI_COMM_WORLD, [&] {
+    const auto values = table_of(folder.path() / "what_if/what_if.csv");
+    const auto& in_false = values.at("pressure in the false lumen");
+    const auto& difference = values.at("pressure, true less false lumen");
+    const auto& flow = values.at("largest mean flow along the false lumen");
+    for (const char* name : {"as it is", "exit_closed", "entry_closed", "more"})
+      say("  %s: false lumen %.3f mmHg, true less false %.3f mmHg, flow along the false lumen %.3f ml/s\n", name,
+          in_false.at(name), difference.at(name), flow.at(name));
+    EXPECT_GT(std::abs(flow.at("as it is")), 10);
+    for (const char* name : {"exit_closed", "entry_closed"})
+      EXPECT_LT(std::abs(flow.at(name)), 0.02 * std::abs(flow.at("as it is"))) << name;
+    EXPECT_LT(difference.at("exit_closed"), difference.at("as it is") - 0.1);
+    EXPECT_GT(difference.at("entry_closed"), difference.at("as it is") + 0.1);
+    EXPECT_GT(in_false.at("exit_closed"), in_false.at("entry_closed"));
+    EXPECT_GT(values.at("openings/lumen_inlet/pressure/mean_mmHg").at("more"),
+              1.1 * values.at("openings/lumen_inlet/pressure/mean_mmHg").at("as it is"));
+    // Only variants with another vessel have a mesh of their own.
+    EXPECT_TRUE(fs::exists(folder.path() / "what_if/exit_closed/mesh/meshes.yaml"));
+    EXPECT_FALSE(fs::exists(folder.path() / "what_if/more/mesh"));
+  });
+
+  // Both closed: the false lumen would have no pressure.
+  request.file =
+      folder.write("both.yaml", "case: case.yaml\nvariants:\n  both: {close_tears: [tear_1, tear_2]}\noutput: both\n");
+  try {
+    pipeline::what_if(request, MPI_COMM_WORLD, stdout);
+    FAIL() << "a false lumen without an opening is taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("without any opening"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace tunica::verification
