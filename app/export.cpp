@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "session.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/pipeline/view_sources.hpp"
 #include "tunica/stages/export/export_case.hpp"
 #include "tunica/stages/export/export_results.hpp"
 
@@ -51,6 +52,7 @@ void add_export(CLI::App& app) {
     request->case_file = names->first;
     request->folder = names->second;
     throw CLI::RuntimeError(in_session([&] {
+      if (*results) request->case_file = pipeline::view_sources(request->case_file, MPI_COMM_WORLD).case_file;
       parallel::on_root(MPI_COMM_WORLD, [&] { export_and_report(*request, *results); });
       return 0;
     }));

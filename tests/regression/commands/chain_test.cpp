@@ -56,6 +56,8 @@ TEST_F(ChainCommand, ReusesWhatHasTheSameInputs) {
   for (const char* text : {"<h1>Tube</h1>", "mean confidence", "TAWSS [Pa]", "iterations of the fixed point",
                            "Tuned outlets: the case has no stage", "Pictures: not wanted", "id=\"view3d\""})
     EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(tunica("export case.yaml -o peer --units cgs --results"), 0) << "of the stage run\n" << printed();
+  EXPECT_TRUE(fs::exists(folder_ / "peer/result_003.vtu")) << printed();
   const auto time = fs::last_write_time(folder_ / "out/run/faces.csv");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
   expect_printed("run         reused");
