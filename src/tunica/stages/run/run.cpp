@@ -612,9 +612,8 @@ bool Run::step() {
   refuse_after_end();
   return guarded([&] {
     begin();
-    if (!left()) return false;
     const auto done = grid_.steps_done();
-    take_and_write();
+    while (left() && grid_.steps_done() == done) take_and_write();  // one that was taken back leaves it where it was
     return grid_.steps_done() > done;
   });
 }
@@ -656,7 +655,7 @@ void Run::begin() {
 }
 
 void Run::take_and_write() {
-  const std::int64_t end = end_step();
+  const std::int64_t end = end_step(), done = grid_.steps_done();
   if (!take_step()) {
     signal_ = parallel::stop_requested(comm_);
     return;
@@ -667,7 +666,7 @@ void Run::take_and_write() {
     save();
     saved_ = MPI_Wtime();
   }
-  if (at_cycle_end()) periodic_ = finish_cycle(true);
+  if (grid_.steps_done() > done && at_cycle_end()) periodic_ = finish_cycle(true);
   bar_->update(static_cast<double>(grid_.steps_done()), fmt::format("step {}/{}", grid_.steps_done(), end));
 }
 
