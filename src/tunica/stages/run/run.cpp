@@ -653,9 +653,8 @@ bool Run::step() {
   refuse_after_end();
   return guarded([&] {
     begin();
-    if (!left()) return false;
     const auto done = grid_.steps_done();
-    take_and_write();
+    while (left() && grid_.steps_done() == done) take_and_write();  // one that was taken back leaves it where it was
     return grid_.steps_done() > done;
   });
 }
@@ -698,7 +697,7 @@ void Run::begin() {
 }
 
 void Run::take_and_write() {
-  const std::int64_t end = end_step();
+  const std::int64_t end = end_step(), done = grid_.steps_done();
   if (!take_step()) {
     signal_ = parallel::stop_requested(comm_);
     return;
