@@ -13,8 +13,10 @@ double FlowCurve::mean() const {
 double FlowCurve::mean_deviation() const {
   double squares = 0;
   for (const double w : weights) squares += w * w;
-  return deviation * std::sqrt(squares);
+  return std::hypot(deviation * std::sqrt(squares), unresolved * mean());
 }
+
+double FlowCurve::deviation_at(std::size_t frame) const { return std::hypot(deviation, unresolved * flow[frame]); }
 
 std::vector<double> frame_weights(const std::vector<double>& times, double period) {
   const auto n = times.size();
@@ -36,6 +38,7 @@ FlowCurve flow_curve(const VelocitySeries& series, const ProfileFit& fit, const 
                   .voxels = fit.voxels(),
                   .flow = {},
                   .deviation = fit.flow_deviation(),
+                  .unresolved = 0.5 * std::pow(series.frame.largest_spacing(), 2) * M_PI / section.area,
                   .weights = frame_weights(series.times, series.period)};
   for (std::size_t frame = 0; frame < series.frames(); ++frame) curve.flow.push_back(fit.flow(frame));
   return curve;

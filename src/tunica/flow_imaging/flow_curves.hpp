@@ -15,11 +15,15 @@ struct FlowCurve {
   double area = 0;                  ///< m^2
   std::size_t voxels = 0;           ///< that tell the flow
   std::vector<double> flow;         ///< of each frame along the normal [m^3/s]
-  double deviation = 0;             ///< one standard deviation of each of them [m^3/s]
+  double deviation = 0;             ///< standard deviation of each of them by the noise of the voxels [m^3/s]
+  /// Relative, what voxels cannot resolve: half the square of voxel over radius, the error of a parabola's mean over
+  /// voxels; the same in all frames.
+  double unresolved = 0;
 
-  double mean() const;            ///< over the beat; frames are weighted by the time that they stand for
-  double mean_deviation() const;  ///< of it
-  std::vector<double> weights{};  ///< of the frames, sum 1
+  double mean() const;                           ///< over the beat; frames are weighted by the time they stand for
+  double mean_deviation() const;                 ///< of it, of both causes
+  double deviation_at(std::size_t frame) const;  ///< of a frame, of both causes
+  std::vector<double> weights{};                 ///< of the frames, sum 1
 };
 
 /// Share of the period that each frame stands for: half of the way to the frames before and after, round the period.

@@ -13,8 +13,9 @@ namespace tunica::flow_imaging {
 
 namespace {
 
-constexpr double along = 3;          ///< correlation length along the normal over that in the plane
-constexpr double least_share = 0.5;  ///< of a voxel that lies in the section's column
+constexpr double along = 3;             ///< correlation length along the normal over that in the plane
+constexpr double most_elsewhere = 0.1;  ///< of a voxel that is lumen outside the column
+constexpr double least_share = 0.5;     ///< of a voxel that lies in the section's column
 constexpr std::size_t least_voxels = 6, most_voxels = 1500;
 constexpr double least_noise = 1e-6;  ///< variance over that of the profile
 constexpr double held = 1e-3;         ///< deviation of the velocity on the rim over that of the profile
@@ -67,10 +68,10 @@ ProfileFit::ProfileFit(const VelocitySeries& series, const LumenVoxels& lumen, c
       length_(settings.length.value_or(0.5 * std::sqrt(section.area / M_PI))) {
   const double spacing = series.frame.largest_spacing();
   double slab = settings.slab;
-  gather(lumen, slab * spacing);
+  gather(lumen, slab * spacing, settings.at_end);
   while (observations_.size() > most_voxels && slab > 0.5) {
     slab *= 0.7;
-    gather(lumen, slab * spacing);
+    gather(lumen, slab * spacing, settings.at_end);
   }
   if (observations_.size() < least_voxels)
     throw InputError(
@@ -85,17 +86,20 @@ ProfileFit::ProfileFit(const VelocitySeries& series, const LumenVoxels& lumen, c
   prepare();
 }
 
-/// Voxels of which at least half lies in the column over the section, and nothing in another part of the lumen.
-void ProfileFit::gather(const LumenVoxels& lumen, double slab) {
+/// Voxels of which at least half lies in the column over the section, and next to nothing in another part of the lumen.
+void ProfileFit::gather(const LumenVoxels& lumen, double slab, bool at_end) {
   observations_.clear();
+  double reach_of_voxel = 0;  // along the normal, from its middle
+  for (const auto& step : series_.frame.steps) reach_of_voxel += 0.5 * std::abs(dot(step, section_.normal));
   for (std::size_t begin = 0; begin < lumen.samples.size();) {
     const auto voxel = lumen.samples[begin].voxel;
     auto end = begin;
     while (end < lumen.samples.size() && lumen.samples[end].voxel == voxel) ++end;
     const auto middle = series_.frame.place(series_.frame.voxel(voxel));
     const double reach = slab + series_.frame.largest_spacing();
-    if (static_cast<double>(end - begin) < least_share * samples_in_voxel || std::abs(column_.height(middle)) > slab ||
-        norm(middle - section_.centre) > reach + 3 * std::sqrt(section_.area)) {
+    const double height = std::abs(column_.height(middle));
+    if (static_cast<double>(end - begin) < least_share * samples_in_voxel || height > slab ||
+        (at_end && height < reach_of_voxel) || norm(middle - section_.centre) > reach + 3 * std::sqrt(section_.area)) {
       begin = end;
       continue;
     }
@@ -104,12 +108,11 @@ void ProfileFit::gather(const LumenVoxels& lumen, double slab) {
       double count = 0;
     };
     std::map<int, Sum> octants;
-    bool elsewhere = false;
-    double inside = 0;
-    for (auto k = begin; k < end && !elsewhere; ++k) {
+    double inside = 0, elsewhere = 0;
+    for (auto k = begin; k < end; ++k) {
       const auto& x = lumen.places[k];
       if (!column_.holds(x)) {
-        elsewhere = std::abs(column_.height(x)) <= slab;
+        elsewhere += 1;
         continue;
       }
       const auto in_plane = column_.plane(x);
@@ -123,7 +126,7 @@ void ProfileFit::gather(const LumenVoxels& lumen, double slab) {
       inside += 1;
     }
     begin = end;
-    if (inside < least_share * samples_in_voxel) continue;
+    if (inside < least_share * samples_in_voxel || elsewhere > most_elsewhere * samples_in_voxel) continue;
     Observation o{.voxel = voxel, .parts = {}, .deviation = 0};
     const double total = inside + (samples_in_voxel - inside) * lumen.tissue_signal;
     for (const auto& [octant, sum] : octants)
@@ -152,23 +155,27 @@ std::vector<double> ProfileFit::correlations(const std::array<double, 3>& at) co
   return result;
 }
 
-/// Mean squares over voxels and frames, less those of the noise.
+/// Along the normal the mean square of the frame with most, so that peaks are not flattened; across it that of all
+/// frames; less those of the noise.
 void ProfileFit::find_variances() {
-  double noise = 0, axial = 0, all = 0;
-  const auto count = static_cast<double>(observations_.size() * series_.frames());
-  for (const auto& o : observations_) {
-    noise += o.deviation * o.deviation / static_cast<double>(observations_.size());
-    for (const auto& of_frame : series_.velocity) {
+  const auto count = static_cast<double>(observations_.size());
+  double noise = 0, across = 0;
+  for (const auto& o : observations_) noise += o.deviation * o.deviation / count;
+  for (const auto& of_frame : series_.velocity) {
+    double axial = 0, all = 0;
+    for (const auto& o : observations_) {
       Vec3<double> v{};
       for (int d = 0; d < 3; ++d)
         v[d] = static_cast<double>(of_frame[static_cast<std::size_t>(d)][static_cast<std::size_t>(o.voxel)]);
       axial += std::pow(dot(section_.normal, v), 2) / count;
       all += dot(v, v) / count;
     }
+    along_ = std::max(along_, axial - noise);
+    across += 0.5 * (all - axial) / static_cast<double>(series_.frames());
   }
   constexpr double least = 1e-2;  // of the noise: no matrix without a diagonal
-  along_ = std::max({axial - noise, least * noise, 1e-12});
-  across_ = std::max({0.5 * (all - axial) - noise, least * noise, 1e-12});
+  along_ = std::max({along_, least * noise, 1e-12});
+  across_ = std::max({across - noise, least * noise, 1e-12});
 }
 
 /// Places on the rim a fifth of the correlation length apart.

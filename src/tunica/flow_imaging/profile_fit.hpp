@@ -22,6 +22,7 @@ namespace tunica::flow_imaging {
 struct FitSettings {
   std::optional<double> length{};  ///< of correlation in the plane [m]; none: half the radius of the section's area
   double slab = 1.5;               ///< voxels before and behind the plane that are taken, in their largest spacing
+  bool at_end = false;             ///< the mesh ends in the section, the vessel does not: voxels across it are left out
 };
 
 /// The lumen on the voxels of a series, once for all sections.
@@ -65,7 +66,7 @@ class ProfileFit {
     std::vector<Part> parts;
     double deviation;  ///< m/s
   };
-  void gather(const LumenVoxels& lumen, double slab);
+  void gather(const LumenVoxels& lumen, double slab, bool at_end);
   void find_variances();
   void place_rim();
   void prepare();

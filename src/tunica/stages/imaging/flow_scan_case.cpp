@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/base/error.hpp"
@@ -58,16 +59,14 @@ class Beat {
   }
 
  private:
+  /// References last until a later frame is asked for that lies two or more behind.
   const analysis::FieldFrame& frame(std::size_t number) {
-    for (auto& held : held_)
-      if (held.first == number) return held.second;
-    // Two frames are in use at a time.
-    if (held_.size() > 2) held_.erase(held_.begin());
-    held_.reserve(4);
-    return held_.emplace_back(number, series_.read(number)).second;
+    std::erase_if(held_, [number](const auto& held) { return held.first + 1 < number || held.first > number + 1; });
+    const auto found = held_.find(number);
+    return found != held_.end() ? found->second : held_.emplace(number, series_.read(number)).first->second;
   }
   analysis::FieldSeries& series_;
-  std::vector<std::pair<std::size_t, analysis::FieldFrame>> held_;
+  std::map<std::size_t, analysis::FieldFrame> held_;
 };
 
 Vec3<double> vector_at(const std::vector<double>& field, std::size_t node) {

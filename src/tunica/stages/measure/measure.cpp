@@ -26,6 +26,7 @@ using config::Problems;
 using config::Schema;
 using nlohmann::ordered_json;
 
+constexpr double slab_of_openings = 4;  ///< voxels: there is lumen on one side alone
 constexpr double ml = 1e-6, mm = 1e-3, cm_s = 1e-2;
 
 Schema<ProfileSettings> profile_schema() {
@@ -131,7 +132,7 @@ std::string table_of(const std::vector<flow::FlowCurve>& curves, const std::vect
   text += "\n";
   for (std::size_t k = 0; k < times.size(); ++k) {
     text += fmt::format("{:.9g}", times[k]);
-    for (const auto& c : curves) text += fmt::format(",{:.7g},{:.4g}", c.flow[k] / ml, c.deviation / ml);
+    for (const auto& c : curves) text += fmt::format(",{:.7g},{:.4g}", c.flow[k] / ml, c.deviation_at(k) / ml);
     text += "\n";
   }
   return text;
@@ -152,7 +153,8 @@ ordered_json report_of(const flow::FlowCurve& c) {
           {"deviation_of_mean_ml_s", c.mean_deviation() / ml},
           {"largest_ml_s", *most / ml},
           {"smallest_ml_s", *least / ml},
-          {"deviation_ml_s", c.deviation / ml}};
+          {"deviation_by_noise_ml_s", c.deviation / ml},
+          {"unresolved_share", c.unresolved}};
 }
 
 void plot_curves(const std::vector<flow::FlowCurve>& curves, const std::vector<double>& times, const fs::path& file) {
@@ -189,7 +191,7 @@ flow::NodalCourse fitted_profile(const MeasureCase& c, const VesselOfCase& vesse
   const double radius = std::sqrt(section.area / M_PI);
   const auto length = c.profile->smoothing ? c.profile->smoothing : c.smoothing;
   const flow::ProfileFit fit(p.series, p.lumen, section, p.noise,
-                             {.length = length.value_or(radius), .slab = c.profile->slab});
+                             {.length = length.value_or(radius), .slab = c.profile->slab, .at_end = true});
   say(fmt::format("profile of {}: {} voxels, smoothed over {:.3g} mm", opening.name, fit.voxels(), fit.length() / mm));
   std::vector<double> outflow;
   const double sign = opening.name == vessel.inlet ? -1 : 1;
@@ -275,7 +277,10 @@ void measure(const MeasureCase& c, bool overwrite, const files::Say& say) {
   for (std::size_t k = 0; k < sections.all.size(); ++k) {
     const auto& section = sections.all[k];
     try {
-      const flow::ProfileFit fit(p.series, p.lumen, section, p.noise, {.length = c.smoothing, .slab = c.slab});
+      const bool opening = sections.signs[k] != 0;
+      const flow::ProfileFit fit(
+          p.series, p.lumen, section, p.noise,
+          {.length = c.smoothing, .slab = opening ? std::max(c.slab, slab_of_openings) : c.slab, .at_end = opening});
       curves.push_back(flow::flow_curve(p.series, fit, section));
       signs.push_back(sections.signs[k]);
     } catch (const InputError& error) {
@@ -304,7 +309,7 @@ void measure(const MeasureCase& c, bool overwrite, const files::Say& say) {
     say(fmt::format("{:<32} {:>10.4g} {:>8.2g} {:>10.4g} {:>10.4g} {:>8.2g} {:>7}", curve.name,
                     entry["mean_ml_s"].get<double>(), entry["deviation_of_mean_ml_s"].get<double>(),
                     entry["largest_ml_s"].get<double>(), entry["smallest_ml_s"].get<double>(),
-                    entry["deviation_ml_s"].get<double>(), curve.voxels));
+                    entry["deviation_by_noise_ml_s"].get<double>(), curve.voxels));
   }
   if (!curves.empty()) {
     files::write_atomically(c.output / "flows.csv", table_of(curves, p.series.times));
