@@ -50,7 +50,7 @@ TEST(WhatIf, ATearThatIsClosedMovesThePressureOfTheFalseLumen) {
   parallel::on_root(MPI_COMM_WORLD, [&] {
     const auto values = table_of(folder.path() / "what_if/what_if.csv");
     const auto& in_false = values.at("pressure in the false lumen");
-    const auto& difference = values.at("pressure, true less false lumen");
+    const auto& difference = values.at("true less false lumen pressure");
     const auto& flow = values.at("largest mean flow along the false lumen");
     for (const char* name : {"as it is", "exit_closed", "entry_closed", "more"})
       say("  %s: false lumen %.3f mmHg, true less false %.3f mmHg, flow along the false lumen %.3f ml/s\n", name,
