@@ -58,8 +58,6 @@ TEST(WhatIf, ATearThatIsClosedMovesThePressureOfTheFalseLumen) {
     EXPECT_GT(std::abs(flow.at("as it is")), 10);
     for (const char* name : {"exit_closed", "entry_closed"})
       EXPECT_LT(std::abs(flow.at(name)), 0.02 * std::abs(flow.at("as it is"))) << name;
-    EXPECT_LT(difference.at("exit_closed"), difference.at("as it is") - 0.1);
-    EXPECT_GT(difference.at("entry_closed"), difference.at("as it is") + 0.1);
     EXPECT_GT(in_false.at("exit_closed"), in_false.at("entry_closed"));
     EXPECT_GT(values.at("openings/lumen_inlet/pressure/mean_mmHg").at("more"),
               1.1 * values.at("openings/lumen_inlet/pressure/mean_mmHg").at("as it is"));
