@@ -148,17 +148,38 @@ void fill_gaps(std::vector<double>& radii) {
   }
 }
 
-std::vector<double> edge(const std::vector<FlatPolygon>& polygons, bool with_wall) {
+/// Farthest points of these parts by direction; below 0 where there are none.
+std::vector<double> reach(const std::vector<FlatPolygon>& polygons, std::initializer_list<Part> parts) {
   std::vector<double> radii;
   for (int k = 0; k < section_directions; ++k) {
     const double c = std::cos(direction(k)), s = std::sin(direction(k));
     double far = -1;
     for (const auto& p : polygons)
-      if (with_wall || p.part == true_lumen || p.part == false_lumen) far = std::max(far, farthest(p.corners, c, s));
+      if (std::find(parts.begin(), parts.end(), p.part) != parts.end()) far = std::max(far, farthest(p.corners, c, s));
     radii.push_back(far);
   }
-  fill_gaps(radii);
   return radii;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Edge of the wall, and of the lumens together with the flap: where that grows out of the wall, its root counts no
+/// farther out than the wall is thick.
+void find_edges(const std::vector<FlatPolygon>& polygons, AortaSection& section) {
+  section.inner = reach(polygons, {true_lumen, false_lumen});
+  fill_gaps(section.inner);
+  section.outer = reach(polygons, {true_lumen, false_lumen, flap_part, wall_part});
+  fill_gaps(section.outer);
+  const auto flap = reach(polygons, {flap_part});
+  std::vector<double> thickness;
+  for (int k = 0; k < section_directions; ++k) thickness.push_back(section.outer[k] - section.inner[k]);
+  const double usual = median(thickness);
+  for (int k = 0; k < section_directions; ++k)
+    section.inner[k] = std::max(section.inner[k], std::min(flap[k], section.outer[k] - usual));
 }
 
 double area_within(const std::vector<double>& radii) {
@@ -216,7 +237,8 @@ void measure_flap(const std::vector<FlatPolygon>& polygons, AortaSection& sectio
 
 AortaSection measure(const std::vector<FlatPolygon>& polygons, double s) {
   constexpr double least_share = 0.01;  // of a section that is a lumen
-  AortaSection section{.s = s, .inner = edge(polygons, false), .outer = edge(polygons, true)};
+  AortaSection section{.s = s};
+  find_edges(polygons, section);
   section.lumen_area = {moments(polygons, {true_lumen}).area, moments(polygons, {false_lumen}).area};
   const double total = section.lumen_area[0] + section.lumen_area[1];
   for (auto& area : section.lumen_area)

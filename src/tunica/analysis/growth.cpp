@@ -82,11 +82,8 @@ Growth find_growth(const Scans& scans) {
 
 double radial_growth(const Growth& growth, const Scans& scans, std::size_t earlier, std::size_t later,
                      const LineCoordinates& at) {
-  const auto radius = [&](std::size_t scan) {
-    const double s = growth.maps[scan].arc(at.s);
-    return scans[scan]->inner_radius(s, at.angle + growth.maps[scan].turn(at.s));
-  };
-  return radius(later) - radius(earlier);
+  return scans[0]->inner_radius(at.s, at.angle) *
+         (growth.maps[later].stretch(at.s, at.angle) - growth.maps[earlier].stretch(at.s, at.angle));
 }
 
 }  // namespace tunica::analysis

@@ -37,7 +37,7 @@ struct Growth {
 Growth find_growth(const std::vector<const Anatomy*>& scans);
 
 /// By how much the edge of the lumens is farther from the line in `later` than in `earlier`, in the direction of `at`
-/// of the first scan [m].
+/// of the first scan, as the map has it [m].
 double radial_growth(const Growth& growth, const std::vector<const Anatomy*>& scans, std::size_t earlier,
                      std::size_t later, const LineCoordinates& at);
 

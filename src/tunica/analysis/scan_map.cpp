@@ -12,6 +12,7 @@ namespace tunica::analysis {
 
 namespace {
 
+constexpr int fill_passes = 200, smooth_passes = 12;
 constexpr double least_gap = 10e-3;               // of branches that the map is anchored at [m]
 constexpr double allowed_distance = 15e-3;        // by which branches may have moved apart [m]
 constexpr double allowed_share = 0.25;            // of their distance
@@ -40,6 +41,27 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
+/// A direction in the mouth of a branch has no wall.
+bool in_mouth(const Anatomy& anatomy, const AortaSection& section, double s, double angle) {
+  constexpr double least_share = 0.4;  // of the mean thickness
+  const double thickness = anatomy.outer_radius(s, angle) - anatomy.inner_radius(s, angle);
+  return anatomy.wall && thickness < least_share * section.wall_thickness;
+}
+
+/// Entries to the mean of their neighbours and themselves, weights 1 4 1 in both directions; only unknown ones, which
+/// do not count themselves, with `fill`.
+void relax(std::vector<std::vector<double>>& grid, const std::vector<std::vector<std::uint8_t>>& known, bool fill) {
+  const auto old = grid;
+  const std::size_t rows = grid.size(), columns = grid[0].size();
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (fill && known[r][c] != 0) continue;
+      const double around = old[r == 0 ? 0 : r - 1][c] + old[std::min(r + 1, rows - 1)][c] + old[r][(c + 1) % columns] +
+                            old[r][(c + columns - 1) % columns];
+      grid[r][c] = fill ? around / 4 : (4 * old[r][c] + around) / 8;
+    }
+}
+
 }  // namespace
 
 ScanMap::ScanMap(const Anatomy& from, const Anatomy& to) : from_(&from), to_(&to) {
@@ -55,19 +77,53 @@ ScanMap::ScanMap(const Anatomy& from, const Anatomy& to) : from_(&from), to_(&to
   if (anchors_.empty())
     throw InputError("scans", "have no branch of the aorta in common, and branches are what places are told by",
                      "keep at least one branch in the surfaces, and call it the same in all scans");
+  find_stretches();
 }
 
 double ScanMap::arc(double s) const { return interpolate(from_arcs_, to_arcs_, s, 1); }
 double ScanMap::back(double s) const { return interpolate(to_arcs_, from_arcs_, s, 1); }
 double ScanMap::turn(double s) const { return interpolate(from_arcs_, turns_, s, 0); }
 
+void ScanMap::find_stretches() {
+  const double step = 2 * M_PI / section_directions;
+  std::vector<std::vector<std::uint8_t>> known;
+  for (const auto& section : from_->sections) {
+    auto& row = stretches_.emplace_back(static_cast<std::size_t>(section_directions), 1.0);
+    auto& known_row = known.emplace_back(static_cast<std::size_t>(section_directions), 1);
+    const double s = arc(section.s);
+    for (int d = 0; d < section_directions; ++d) {
+      const double angle = d * step, there = angle + turn(section.s);
+      const auto k = static_cast<std::size_t>(d);
+      row[k] = to_->inner_radius(s, there) / from_->inner_radius(section.s, angle);
+      if (in_mouth(*from_, section, section.s, angle) || in_mouth(*to_, to_->at(s), s, there)) known_row[k] = 0;
+    }
+  }
+  for (int pass = 0; pass < fill_passes; ++pass) relax(stretches_, known, true);
+  for (int pass = 0; pass < smooth_passes; ++pass) relax(stretches_, known, false);
+}
+
+double ScanMap::stretch(double s, double angle) const {
+  const double step = from_->sections[1].s - from_->sections[0].s;
+  const double x = std::clamp(s / step, 0.0, static_cast<double>(stretches_.size() - 1));
+  const auto k = std::min(static_cast<std::size_t>(x), stretches_.size() - 2);
+  const double t = x - static_cast<double>(k);
+  double y = angle / (2 * M_PI) * section_directions;
+  y -= section_directions * std::floor(y / section_directions);
+  const auto a = static_cast<std::size_t>(y) % section_directions, b = (a + 1) % section_directions;
+  const double u = y - std::floor(y);
+  const auto in_row = [&](const std::vector<double>& row) { return (1 - u) * row[a] + u * row[b]; };
+  return (1 - t) * in_row(stretches_[k]) + t * in_row(stretches_[k + 1]);
+}
+
 LineCoordinates ScanMap::coordinates(const LineCoordinates& at) const {
   LineCoordinates there{.s = arc(at.s), .angle = wrapped(at.angle + turn(at.s))};
-  const double inner = from_->inner_radius(at.s, at.angle), outer = from_->outer_radius(at.s, at.angle),
-               new_inner = to_->inner_radius(there.s, there.angle), new_outer = to_->outer_radius(there.s, there.angle);
-  const double wall = outer - inner, new_wall = new_outer - new_inner;
-  const double in_wall = wall > 0 && new_wall > 0 ? new_wall / wall : 1;
-  there.radius = at.radius <= inner ? at.radius * new_inner / inner : new_inner + (at.radius - inner) * in_wall;
+  const double inner = from_->inner_radius(at.s, at.angle), edge = inner * stretch(at.s, at.angle);
+  if (at.radius <= inner) {
+    there.radius = at.radius * edge / inner;
+    return there;
+  }
+  const double wall = from_->at(at.s).wall_thickness, new_wall = to_->at(there.s).wall_thickness;
+  there.radius = edge + (at.radius - inner) * (wall > 0 && new_wall > 0 ? new_wall / wall : 1);
   return there;
 }
 

@@ -12,7 +12,8 @@ namespace tunica::analysis {
 
 /// From one scan to another. Arc length is linear between branches that leave at least 10 mm apart and keeps its
 /// measure beyond the first and the last of them; angles are turned so that these branches lie over each other, evenly
-/// in between; a radius is scaled within the lumens, and within the wall, by what these have in the same direction.
+/// in between; a radius is scaled within the lumens by what their edges have in the same direction, smoothed over some
+/// sections and directions and across mouths of branches, and within the wall by its mean thickness there.
 /// Each of the three rises with its own coordinate, so that the map turns nothing inside out where coordinates are
 /// unique. Both scans must outlive it.
 class ScanMap {
@@ -23,6 +24,8 @@ class ScanMap {
   double arc(double s) const;
   double back(double s) const;  ///< its inverse
   double turn(double s) const;  ///< by which angles at arc length s of `from` rise [rad]
+  /// Radius of the lumens' edge after by that before, at a place of `from`.
+  double stretch(double s, double angle) const;
   LineCoordinates coordinates(const LineCoordinates& at) const;
   Vec3<double> point(const LineCoordinates& at) const { return to_->line.point(coordinates(at)); }  ///< m
 
@@ -33,9 +36,12 @@ class ScanMap {
   std::array<double, 2> range() const;
 
  private:
+  void find_stretches();
+
   const Anatomy *from_, *to_;
   std::vector<std::string> anchors_;
   std::vector<double> from_arcs_, to_arcs_, turns_;
+  std::vector<std::vector<double>> stretches_;  ///< [section of `from`][direction]
 };
 
 /// What says that two scans are not of one aorta, or that names of branches are swapped: branches of one alone, in

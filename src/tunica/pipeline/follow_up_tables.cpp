@@ -68,6 +68,9 @@ std::string stations_csv(const FollowUpFindings& f) {
     };
     using Section = analysis::AortaSection;
     add("distance in the scan [mm]", [](const Section& s) { return s.s / mm; });
+    const char* axes[] = {"x [mm]", "y [mm]", "z [mm]"};
+    for (int i = 0; i < 3; ++i)
+      add(axes[i], [&](const Section& s) { return f.scans[k]->anatomy.line.frame(s.s).origin[i] / mm; });
     add("diameter [mm]", [](const Section& s) { return s.diameter / mm; });
     add("largest diameter [mm]", [](const Section& s) { return s.largest_diameter / mm; });
     add("true lumen area [mm^2]", [](const Section& s) { return s.lumen_area[0] / mm2; });

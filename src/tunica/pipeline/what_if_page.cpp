@@ -74,7 +74,7 @@ double flow_along_false_lumen(const json& post) {
 std::vector<ComparedLine> main_lines(const Computed& all) {
   std::vector<ComparedLine> lines = {{"pressure in the false lumen", "mmHg", {}},
                                      {"pressure in the true lumen beside it", "mmHg", {}},
-                                     {"pressure, true less false lumen", "mmHg", {}},
+                                     {"true less false lumen pressure", "mmHg", {}},
                                      {"largest mean flow along the false lumen", "ml/s", {}}};
   for (const auto& post : all.post) {
     lines[0].values.push_back(over_dissection(post, "false_lumen", "mean_mmHg"));
