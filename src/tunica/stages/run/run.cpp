@@ -697,7 +697,7 @@ void Run::begin() {
 }
 
 void Run::take_and_write() {
-  const std::int64_t end = end_step(), done = grid_.steps_done();
+  const std::int64_t end = end_step();
   if (!take_step()) {
     signal_ = parallel::stop_requested(comm_);
     return;
