@@ -10,7 +10,6 @@
 #include "tunica/case/case_text.hpp"
 #include "tunica/case/compared_law.hpp"
 #include "tunica/case/keys.hpp"
-#include "tunica/case/measured_settings.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/case/plausible.hpp"
 #include "tunica/wall/parameters.hpp"
@@ -205,24 +204,17 @@ void place_outlets(Case& c, std::vector<Problem>& warnings) {
   for (auto& outlet : provisional_outlets(*c.outlets)) c.boundary.push_back(std::move(outlet));
 }
 
-/// Where the section `measured` goes while a case is read, so that its keys are checked with all others. What computes
-/// has no use for it; `post` reads it by read_measured().
-MeasuredCase& measured_is_elsewhere(Case&) {
-  thread_local MeasuredCase checked;
-  return checked = {};
-}
-
 /// What only the whole case can tell of the measurements.
-std::vector<Problem> problems_of_measured(const Case& c, const std::string& yaml, const std::filesystem::path& file) {
-  const auto measured = read_measured(yaml, file);
-  if (!measured) return {};
+std::vector<Problem> problems_of_measured(const Case& c) {
+  if (!c.measured) return {};
+  const MeasuredCase& measured = *c.measured;
   std::vector<std::string> points;
   for (const auto& [name, place] : c.output.points) points.push_back(name);
-  auto problems = check_measured(*measured, points);
+  auto problems = check_measured(measured, points);
   if (!c.post)
     problems.push_back(
         {"measured", "is given, and no `post` that would compare it with the results", "add `post: {}`"});
-  if (!c.solves_fluid() && !(measured->pressures.empty() && measured->flows.empty() && measured->areas.empty()))
+  if (!c.solves_fluid() && !(measured.pressures.empty() && measured.flows.empty() && measured.areas.empty()))
     problems.push_back(
         {"measured", "has pressures, flows or areas of the lumen, but the analysis has no flow", "remove them"});
   return problems;
@@ -326,9 +318,8 @@ Schema<Case> Case::schema() {
                "Outlets by pressures and shares of the flow, which `tunica tune` finds")
       .section("post", &Case::post, analysis::PostSettings::schema(),
                "What `tunica post` makes of the results; with its defaults when left out")
-      .section("measured", measured_is_elsewhere, MeasuredCase::schema(),
+      .section("measured", &Case::measured, MeasuredCase::schema(),
                "Measurements that `tunica post` and the report hold the results against; docs/measured.md")
-      .optional()
       .section("report", &Case::report, ReportSettings::schema(), "The page that `tunica run` writes last")
       .map("compare", &Case::compare, ComparedLaw::schema(),
            "Wall laws that `tunica compare` puts side by side, by the names that they shall have")
@@ -354,8 +345,7 @@ config::Parsed<Case> read_case(const std::filesystem::path& file) { return read_
 config::Parsed<Case> read_case(const std::string& yaml, const std::filesystem::path& file) {
   config::Parsed<Case> parsed = parse(yaml, file, true);
   std::vector<Problem> problems = check_waveforms(parsed.value);
-  for (auto& problem : problems_of_measured(parsed.value, config::read_text(file), file))
-    problems.push_back(std::move(problem));
+  for (auto& problem : problems_of_measured(parsed.value)) problems.push_back(std::move(problem));
   if (!problems.empty()) throw InputError(std::move(problems));
   for (auto& warning : implausible_values(parsed.value)) parsed.warnings.push_back(std::move(warning));
   return parsed;

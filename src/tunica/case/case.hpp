@@ -16,6 +16,7 @@
 #include "tunica/base/boxed.hpp"
 #include "tunica/bc/conditions.hpp"
 #include "tunica/case/fibre_settings.hpp"
+#include "tunica/case/measured_settings.hpp"
 #include "tunica/case/prestress_settings.hpp"
 #include "tunica/case/report_settings.hpp"
 #include "tunica/case/tuning_settings.hpp"
@@ -163,6 +164,7 @@ struct Case {
   std::optional<PrestressCase> prestress;      ///< what `tunica prestress` shall do
   std::optional<TuningCase> outlets;           ///< what `tunica tune` shall find, and a run takes; with flow
   std::optional<analysis::PostSettings> post;  ///< what `tunica post` shall make of the results
+  std::optional<MeasuredCase> measured;        ///< what `tunica post` holds the results against
   std::optional<ReportSettings> report;        ///< the page that is written last
   std::vector<std::pair<std::string, Boxed<ComparedLaw>>> compare;  ///< laws that `tunica compare` puts in the wall
   coupling::NewtonSettings newton;

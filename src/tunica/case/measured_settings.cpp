@@ -82,14 +82,6 @@ Schema<MeasuredPlane> MeasuredPlane::schema() {
       });
 }
 
-std::optional<MeasuredCase> read_measured(const std::string& yaml, const std::filesystem::path& file) {
-  const config::Document document(yaml, file.string());
-  if (!document.has("measured")) return std::nullopt;
-  return config::parse_document(MeasuredCase::schema(), document.part("measured"),
-                                {.name = file.string(), .folder = file.parent_path()})
-      .value;
-}
-
 std::vector<Problem> check_measured(const MeasuredCase& measured, const std::vector<std::string>& points) {
   std::vector<Problem> problems;
   for (const auto& kind : measurement_kinds())

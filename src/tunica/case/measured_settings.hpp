@@ -48,10 +48,6 @@ struct MeasuredCase {
   static config::Schema<MeasuredCase> schema();
 };
 
-/// The section `measured` of the text of a case file; none where there is no such section. Throws InputError with all
-/// problems of the section.
-std::optional<MeasuredCase> read_measured(const std::string& yaml, const std::filesystem::path& file);
-
 /// What kinds of measurements have in common for whoever goes through all of them.
 struct MeasurementKind {
   const char *key, *quantity, *unit, *largest, *smallest;

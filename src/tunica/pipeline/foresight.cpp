@@ -154,13 +154,9 @@ void check_fibre_faces(const case_file::FibreSettings& fibres, const Names& face
   look_up("fibres.outer", fibres.outer);
 }
 
-std::optional<case_file::MeasuredCase> measured_of(const Chain& chain) {
-  return case_file::read_measured(config::read_text(chain.file), chain.file);
-}
-
 /// Fields and faces that `post` will ask for, while nothing is computed yet. Outlets to be tuned have their conditions
 /// already.
-void check_post(const case_file::Case& c, const std::optional<case_file::MeasuredCase>& measured, Problems& problems) {
+void check_post(const case_file::Case& c, Problems& problems) {
   if (!c.post) return;
   collect(problems, "", [&] { stages::post::check_post(c); });
   if (!c.fluid) return;
@@ -174,9 +170,9 @@ void check_post(const case_file::Case& c, const std::optional<case_file::Measure
   };
   look_up("post.inlet", analysis::inlet_name(case_file::describe(c), *c.post));
   if (c.post->end) look_up("post.end", *c.post->end);
-  if (!measured) return;
+  if (!c.measured) return;
   for (const auto& kind : case_file::measurement_kinds())
-    for (const auto& [name, m] : (*measured).*kind.entries)
+    for (const auto& [name, m] : (*c.measured).*kind.entries)
       if (m.opening) look_up(fmt::format("measured.{}.{}.opening", kind.key, name).c_str(), *m.opening);
 }
 
@@ -307,7 +303,7 @@ Problems foreseen_problems(const Chain& chain) {
   if (chain.settings.mesh) check_faces_to_come(chain.settings, problems);
   check_sections(chain.settings, problems);
   check_results_named(chain.settings, problems);
-  check_post(chain.settings, measured_of(chain), problems);
+  check_post(chain.settings, problems);
   check_compared_laws(chain, problems);
   for (const auto& stage : stages())
     if (stage.wanted(chain.settings)) collect(problems, "", [&] { stages::check_folder(folder_of(chain, stage)); });
@@ -328,7 +324,7 @@ std::vector<std::string> check_on_meshes(const Chain& chain) {
   check_stage_faces(read.settings, faces, regions, problems);
   if (chain.settings.post)
     collect(problems, "", [&] { analysis::check_ends(describe(read.settings), *chain.settings.post, read.mesh.data); });
-  if (const auto measured = measured_of(chain))
+  if (const auto& measured = chain.settings.measured)
     collect(problems, "", [&] { stages::post::find_measured_sections(*measured, read.settings, read.mesh.data); });
   collect(problems, "", [&] {
     if (chain.settings.outlets && chain.settings.outlets->given_file)

@@ -109,7 +109,6 @@ class Post {
   std::optional<analysis::FrameFigures> frames_;
   std::optional<analysis::FigureTable> figures_;
   analysis::CycleFields fields_;
-  std::optional<case_file::MeasuredCase> measured_;
   MeasuredSections measured_sections_;
   std::optional<artifacts::LumenSeries> run_lumens_;  ///< as the run has written them for the window
 };
@@ -141,8 +140,7 @@ void Post::read() {
       mesh::add_edge_nodes(data_);
       data_ = mesh::subdivided(data_);
     }
-    measured_ = case_file::read_measured(text, request_.case_file);
-    if (measured_) measured_sections_ = find_measured_sections(*measured_, case_, data_);
+    if (case_.measured) measured_sections_ = find_measured_sections(*case_.measured, case_, data_);
     series_.emplace(case_file::describe(case_), data_, results_);
     auto warnings = std::vector<std::string>{};
     window_ = choose_window(series_->times(), settings_, results_.string(), warnings);
@@ -242,11 +240,11 @@ void Post::write() {
     auto& files = report["files"] = nlohmann::ordered_json::array();
     for (const auto& write : {write_tables, write_plots, write_fields})
       for (const auto& file : write(findings, folder_)) files.push_back(file);
-    if (measured_) report["measured"] = compare_measured(findings, *measured_, folder_, files);
+    if (case_.measured) report["measured"] = compare_measured(findings, *case_.measured, folder_, files);
     report["seconds"] = MPI_Wtime() - started_;
     files::write_atomically(folder_ / report_file, config::json_text(report));
     log_->info(report_text(report));
-    if (measured_) log_->info(measured_text(report["measured"]));
+    if (case_.measured) log_->info(measured_text(report["measured"]));
     if (too_dissipative) log_->warning(*too_dissipative);
   });
   log_->info(fmt::format("{} files in {}", report_file, folder_.string()));
