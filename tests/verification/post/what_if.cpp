@@ -1,6 +1,6 @@
 // What if: a tear of the idealised dissection closed, between rigid walls. With one tear alone nothing flows through
 // the false lumen, and its pressure is that at the tear which is left: an occluded exit raises it, an occluded entry
-// lowers it (Tsai et al., J Vasc Surg 47, 2008, 844; Rudenick et al., J Vasc Surg 57, 2013, 464).
+// lowers it, as has been measured (docs/what_if.md).
 #include "tunica/pipeline/what_if.hpp"
 
 #include <fmt/format.h>

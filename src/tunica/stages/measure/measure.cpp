@@ -171,10 +171,14 @@ void plot_curves(const std::vector<flow::FlowCurve>& curves, const std::vector<d
                        .y_label = "flow [ml/s]"});
 }
 
+fs::path profile_file(const MeasureCase& c, const std::string& opening) {
+  return c.output / fmt::format("profile_{}.csv", opening);
+}
+
 /// Writes the table of a profile; the lines of the case that read it go to `say`.
 void write_profile(const MeasureCase& c, const flow::OpeningMesh& opening, const flow::NodalCourse& course,
                    const files::Say& say) {
-  const auto file = c.output / fmt::format("profile_{}.csv", opening.name);
+  const auto file = profile_file(c, opening.name);
   flow::write_profile_table(opening, flow::resampled(course, static_cast<std::size_t>(c.profile->times)), file);
   say(
       fmt::format("\nThe velocities of {0} at its {1} nodes are the condition\n\n"
@@ -262,8 +266,9 @@ config::Parsed<MeasureCase> read_measure_case(const fs::path& file) {
 }
 
 void measure(const MeasureCase& c, bool overwrite, const files::Say& say) {
-  if (!overwrite && fs::exists(c.output / "flows.json"))
-    throw InputError(c.output.string(), "holds flows already", "give --overwrite, or another `output`");
+  if (!overwrite &&
+      (fs::exists(c.output / "flows.json") || (c.profile && fs::exists(profile_file(c, c.profile->opening)))))
+    throw InputError(c.output.string(), "holds measured flow already", "give --overwrite, or another `output`");
   const files::FolderLock lock(c.output);
   if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
   files::try_outputs(c.output, {"flows.csv", "flows.json", "flows.svg"});
