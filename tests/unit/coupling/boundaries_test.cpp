@@ -239,7 +239,7 @@ TEST(Boundaries, PressureOnAClosedSurfaceHasNoNetForce) {
     const Bound b(data, in);
     const auto fields = test::random_fields(b.mesh, {.displacement = 4e-4});
     std::vector<double> residual(at(b.mesh.nodes()), 0.0);
-    b.boundaries.add_loads(0.0, 1.0, fields.view(), {}, residual, nullptr);
+    b.boundaries.loads().add(0.0, 1.0, fields.view(), {}, residual, nullptr);
     double largest = 0;
     for (std::size_t k = 0; k < at(b.mesh.owned_nodes); ++k) largest = std::max(largest, std::abs(residual[k]));
     EXPECT_GT(parallel::global_max(MPI_COMM_WORLD, largest), 1e-3);
@@ -264,7 +264,7 @@ void expect_consistent(const mesh::MeshData& data, const BoundaryInput& in) {
   const auto fields = test::random_fields(b.mesh, {.displacement = 2e-4, .velocity = 0.5});
   assembly::BlockMatrix matrix(b.pattern);
   std::vector<double> ignored(at(b.mesh.nodes()), 0.0);
-  b.boundaries.add_loads(0.0, 0.8, fields.view(), coefficients, ignored, &matrix);
+  b.boundaries.loads().add(0.0, 0.8, fields.view(), coefficients, ignored, &matrix);
   std::vector<double> direction(at(b.mesh.nodes()), 0.0);
   for (std::int32_t i = 0; i < b.mesh.nodes(); ++i)
     for (int c = 0; c < 3 && b.mesh.host[i] == i; ++c)
@@ -279,7 +279,7 @@ void expect_consistent(const mesh::MeshData& data, const BoundaryInput& in) {
         f.displacement[at(i) + c] += coefficients.displacement * d;
       }
     std::vector<double> residual(at(b.mesh.nodes()), 0.0);
-    b.boundaries.add_loads(0.0, 0.8, f.view(), coefficients, residual, nullptr);
+    b.boundaries.loads().add(0.0, 0.8, f.view(), coefficients, residual, nullptr);
     return residual;
   };
   const double step = 1e-5;
@@ -433,7 +433,7 @@ TEST(Boundaries, SupportVariesOverItsFace) {
     auto fields = test::random_fields(b.mesh, {0, 0, 0, 0});
     for (std::size_t k = 0; k < fields.displacement.size(); k += 4) fields.displacement[k] = 1e-4;
     std::vector<double> residual(at(b.mesh.nodes()), 0.0);
-    b.boundaries.add_loads(0.0, 1.0, fields.view(), {0.0, 1.0}, residual, nullptr);
+    b.boundaries.loads().add(0.0, 1.0, fields.view(), {0.0, 1.0}, residual, nullptr);
     return b.sum(residual)[0];
   };
   const double constant = force_with(2e6), varying = force_with(bc::FaceArray{"k", 1e6});
@@ -453,7 +453,7 @@ TEST(Boundaries, NodalPressureIsAFollowerPressure) {
     const Bound b(test::fsi_tube(), input.boundary);
     const auto fields = test::random_fields(b.mesh);
     std::vector<double> residual(at(b.mesh.nodes()), 0.0);
-    b.boundaries.add_loads(0.0, 0.5, fields.view(), {0.0, 1.0}, residual, nullptr);
+    b.boundaries.loads().add(0.0, 0.5, fields.view(), {0.0, 1.0}, residual, nullptr);
     return residual;
   };
   const auto expected = residual_with(test::pressure(3e3), 0.0), found = residual_with(bc::Free{}, 3e3);
