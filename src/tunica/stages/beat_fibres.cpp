@@ -29,26 +29,40 @@ struct Spot {
   double area;
 };
 
-/// Triangles of the wall's outside and of its interface with the blood; its rings touch both and are left out.
+/// Where the triangles of a face of the wall lie. Rings at the ends of the wall touch the blood with some of them.
+enum class Side { inner, outer, ring };
+
+Side side_of(const mesh::FaceData& face, const std::vector<char>& at_blood) {
+  std::size_t touching = 0, all = 0;
+  for (const auto& t : face.triangles) {
+    const auto blood = std::count_if(t.begin(), t.end(), [&](auto n) { return at_blood[static_cast<std::size_t>(n)]; });
+    touching += blood > 0;
+    all += blood == 3;
+  }
+  if (all == face.triangles.size()) return Side::inner;
+  return 10 * touching > face.triangles.size() ? Side::ring : Side::outer;
+}
+
+/// Triangles of the wall's outside and of its interface with the blood.
 std::vector<Spot> spots_of(const MeshData& data) {
   std::vector<char> at_blood(data.points.size(), 0);
   for (const auto& [wall, lumen] : data.twins) at_blood[static_cast<std::size_t>(wall)] = 1;
   std::vector<Spot> spots;
   const mesh::Boundary boundary(data.tetrahedra, std::ssize(data.points), "the mesh");
-  for (const auto& t : boundary.triangles()) {
-    const auto region = std::find_if(data.regions.begin(), data.regions.end(), [&](const auto& r) {
-      return t.element >= r.first_element && t.element < r.end_element;
-    });
-    if (region->kind != RegionKind::wall) continue;
-    std::array<Vec3<double>, 3> x;
-    int blood = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x[k] = data.points[static_cast<std::size_t>(t.nodes[k])];
-      blood += at_blood[static_cast<std::size_t>(t.nodes[k])];
+  for (const auto& face : data.faces) {
+    if (data.regions[static_cast<std::size_t>(face.region)].kind != RegionKind::wall) continue;
+    const Side side = side_of(face, at_blood);
+    if (side == Side::ring) continue;
+    for (const auto& t : face.triangles) {
+      const auto element = boundary.triangles()[static_cast<std::size_t>(boundary.find(t))].element;
+      const auto region = std::find_if(data.regions.begin(), data.regions.end(), [&](const auto& r) {
+        return element >= r.first_element && element < r.end_element;
+      });
+      std::array<Vec3<double>, 3> x;
+      for (std::size_t k = 0; k < 3; ++k) x[k] = data.points[static_cast<std::size_t>(t[k])];
+      spots.push_back({element, &*region, side == Side::inner, (1.0 / 3.0) * (x[0] + x[1] + x[2]),
+                       0.5 * norm(cross(x[1] - x[0], x[2] - x[0]))});
     }
-    if (blood != 0 && blood != 3) continue;
-    spots.push_back({t.element, &*region, blood == 3, (1.0 / 3.0) * (x[0] + x[1] + x[2]),
-                     0.5 * norm(cross(x[1] - x[0], x[2] - x[0]))});
   }
   return spots;
 }

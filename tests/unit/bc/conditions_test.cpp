@@ -148,7 +148,11 @@ TEST(ConditionSchema, FlowSignsAndTables) {
   EXPECT_NEAR(inflow(table).period().value(), 0.9, 1e-15);
   const auto raw =
       as<Flow>("{flow: {positive: inflow, table: {file: " + path.string() + ", time_unit: s, unit: cm^3/s}}}");
-  EXPECT_NEAR(inflow(raw).value(0.5), -8e-6, 1e-18);
+  EXPECT_NEAR(inflow(raw).value(0.5), (-4 - 32 / (M_PI * M_PI)) * 1e-6, 1e-12)
+      << "two modes of the triangle, by default";
+  const auto lines = as<Flow>("{flow: {positive: inflow, table: {file: " + path.string() +
+                              ", time_unit: s, unit: cm^3/s, interpolation: linear}}}");
+  EXPECT_NEAR(inflow(lines).value(0.5), -8e-6, 1e-18);
   EXPECT_TRUE(contains(refusal("{flow: {table: {file: " + path.string() + ", time_unit: s}}}"), "unit"));
   EXPECT_TRUE(contains(
       refusal("{flow: {table: {file: " + path.string() + ", time_unit: s, unit: ml/s, periodic: false, period: 1 s}}}"),
