@@ -19,7 +19,7 @@ steps = int(sys.argv[3]) if len(sys.argv) > 3 else 40
 
 # %% The case of a mesh: steady flow between rigid walls, the same resistance at every outlet
 def case_on(mesh):
-    boundary = {"lumen_inlet": {"flow": {"value": "90 ml/s", "ramp_time": "50 ms"}}, "lumen_interface": "no_slip"}
+    boundary = {"lumen_inlet": {"flow": {"value": "90 ml/s", "ramp_time": "50 ms"}}, "lumen_wall": "no_slip"}
     for face in mesh.faces:
         if face.startswith("lumen_") and face not in boundary:
             boundary[face] = {"resistance": {"resistance": "5e8 Pa s/m^3"}}

@@ -172,7 +172,7 @@ class Simulations(InAFolder):
             simulation.elements("wall")
         results = simulation.finish()
         self.assertEqual(results.status, "stopped")
-        stored = results.fields("lumen")["velocity [m/s]"]
+        stored = results.fields("lumen")["velocity"]
         np.testing.assert_allclose(np.sort(np.linalg.norm(stored, axis=1)), np.sort(np.linalg.norm(velocity, axis=1)),
                                    rtol=1e-5, atol=1e-7)
         del simulation
@@ -254,7 +254,7 @@ class Simulations(InAFolder):
         self.assertEqual(self.simulation("results", overwrite=True, until=1).run().status, "completed")
 
     def test_ctrl_c_loses_nothing(self):
-        case = self.case.replace({"time.steps": 60, "output.every": 100})
+        case = self.case.replace({"time.steps": 400, "output.every": 1000})
         simulation = self.simulation("python", case)
         threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt):
@@ -262,9 +262,10 @@ class Simulations(InAFolder):
                 pass
         self.assertFalse(simulation.finished)
         done = simulation.steps
-        self.assertLess(done, 60)
+        self.assertLess(done, 400)
         self.assertEqual(simulation.run().status, "completed")
-        self.expect_same(simulation.results, self.program("program", case=case))
+        # To the digits of the tables but the last: over many steps a process with another memory rounds otherwise.
+        self.expect_same(simulation.results, self.program("program", case=case), rtol=1e-7)
 
     def test_several_at_a_time(self):
         one, other = self.simulation("one"), self.simulation("other")

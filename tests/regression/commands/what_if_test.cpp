@@ -1,5 +1,6 @@
 // `tunica what-if` on a short tube: loads that change, and what is refused before any work.
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "program.hpp"
 
@@ -73,6 +74,7 @@ TEST_F(WhatIfCommand, RefusesBeforeAnyWork) {
 
 TEST_F(WhatIfCommand, TellsThatThereIsNoSuchTear) {
   write_case();
+  write("case.yaml", std::regex_replace(read("case.yaml"), std::regex("length: 20 mm"), "length: 80 mm"));
   write_variants("  closed: {close_tears: tear_3}\n");
   EXPECT_EQ(tunica("what-if what_if.yaml"), 2);
   EXPECT_NE(printed().find("variants.closed: close_tears"), std::string::npos) << printed();
