@@ -56,9 +56,20 @@ TEST(WhatIf, ATearThatIsClosedMovesThePressureOfTheFalseLumen) {
       say("  %s: false lumen %.3f mmHg, true less false %.3f mmHg, flow along the false lumen %.3f ml/s\n", name,
           in_false.at(name), difference.at(name), flow.at(name));
     EXPECT_GT(std::abs(flow.at("as it is")), 10);
-    for (const char* name : {"exit_closed", "entry_closed"})
-      EXPECT_LT(std::abs(flow.at(name)), 0.02 * std::abs(flow.at("as it is"))) << name;
-    EXPECT_GT(in_false.at("exit_closed"), in_false.at("entry_closed"));
+    // Nothing passes the tear that is left. Cuts along such a sac still have a tenth of the flow of before: they
+    // conserve mass to the accuracy of the mesh only.
+    int tears = 0;
+    for (const auto& [what, by_name] : values) {
+      if (!what.starts_with("tears/") || !what.ends_with("_ml")) continue;
+      ++tears;
+      for (const char* name : {"exit_closed", "entry_closed"}) {
+        const double ml = by_name.at(name);  // not a number where there is no such tear any more
+        EXPECT_FALSE(std::abs(ml) > 1e-3) << what << " of " << name << ": " << ml;
+      }
+    }
+    EXPECT_GE(tears, 2);
+    EXPECT_GT(in_false.at("exit_closed"), in_false.at("as it is"));
+    EXPECT_LT(in_false.at("entry_closed"), in_false.at("as it is"));
     EXPECT_GT(values.at("openings/lumen_inlet/pressure/mean_mmHg").at("more"),
               1.1 * values.at("openings/lumen_inlet/pressure/mean_mmHg").at("as it is"));
     // Only variants with another vessel have a mesh of their own.
