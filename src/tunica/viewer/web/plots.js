@@ -185,6 +185,7 @@
     table.querySelectorAll('thead th').forEach((head, column) => {
       if (!head.textContent.trim()) return;
       const button = document.createElement('button');
+      if (head.querySelector('.aside')) head.style.textAlign = 'left';  // as the cells below
       Object.assign(button, { type: 'button', textContent: head.textContent });
       head.textContent = '';
       head.append(button);
