@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "tunica/base/error.hpp"
-#include "tunica/flow_imaging/dense.hpp"
 
 namespace tunica::flow_imaging {
 
@@ -62,18 +62,20 @@ double sum_of_products(const std::vector<double>& a, const std::vector<double>& 
 std::vector<double> least_squares(const std::vector<std::vector<double>>& terms, const std::vector<double>& values,
                                   const std::vector<char>& kept) {
   const auto n = terms.front().size();
-  dense::Matrix normal(n, n);
-  std::vector<double> right(n, 0.0);
+  const auto size = static_cast<Eigen::Index>(n);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (!kept[v]) continue;
-    for (std::size_t i = 0; i < n; ++i) {
-      right[i] += terms[v][i] * values[v];
-      for (std::size_t j = 0; j < n; ++j) normal(i, j) += terms[v][i] * terms[v][j];
-    }
+    const Eigen::Map<const Eigen::VectorXd> row(terms[v].data(), size);
+    right += values[v] * row;
+    normal += row * row.transpose();
   }
-  dense::factorise(normal, "offset of the velocities");
-  dense::solve(normal, right);
-  return right;
+  const Eigen::LLT<Eigen::MatrixXd> factor(normal);
+  if (factor.info() != Eigen::Success)
+    throw SolverError(fmt::format("offset of the velocities: the voxels do not determine its {} coefficients", n));
+  const Eigen::VectorXd found = factor.solve(right);
+  return {found.begin(), found.end()};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "tunica/analysis/cuts.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/mesh/boundary.hpp"
 
 namespace tunica::flow_imaging {
 
@@ -16,18 +17,13 @@ namespace {
 
 using Edge = std::array<std::int64_t, 2>;
 
-Vec3<double> area_of(const CrossSection& s, const std::array<std::int32_t, 3>& t) {
-  const auto x = [&](std::size_t i) { return s.points[static_cast<std::size_t>(t[i])]; };
-  return 0.5 * cross(x(1) - x(0), x(2) - x(0));
-}
-
 /// Centre, area and rim follow from points and triangles.
 void complete(CrossSection& s) {
   std::map<std::array<std::int32_t, 2>, int> edges;
   s.area = 0;
   s.centre = {};
   for (const auto& t : s.triangles) {
-    const double area = norm(area_of(s, t));
+    const double area = norm(mesh::area_vector(s.points, t));
     s.area += area;
     for (std::size_t i = 0; i < 3; ++i) {
       s.centre = s.centre + (area / 3) * s.points[static_cast<std::size_t>(t[i])];
@@ -74,7 +70,7 @@ void add_polygon(Piece& piece, const mesh::MeshData& data, const std::array<std:
   for (std::size_t k = 2; k < corners.size(); ++k) {
     std::array<std::int32_t, 3> t{corners[0], corners[k - 1], corners[k]};
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    if (dot(area_of(piece.section, t), piece.section.normal) < 0) std::swap(t[1], t[2]);
+    if (dot(mesh::area_vector(piece.section.points, t), piece.section.normal) < 0) std::swap(t[1], t[2]);
     piece.section.triangles.push_back(t);
   }
 }
@@ -167,7 +163,7 @@ CrossSection opening_section(const mesh::MeshData& data, const mesh::FaceData& f
       local[i] = found->second;
     }
     s.triangles.push_back(local);
-    s.normal = s.normal + area_of(s, local);
+    s.normal = s.normal + mesh::area_vector(s.points, local);
   }
   complete(s);
   const double flat = norm(s.normal);
@@ -217,7 +213,7 @@ SectionState state_of(const CrossSection& s, const MeshFields& fields) {
 std::vector<std::pair<Vec3<double>, double>> quadrature(const CrossSection& s) {
   std::vector<std::pair<Vec3<double>, double>> result;
   for (const auto& t : s.triangles) {
-    const double area = dot(area_of(s, t), s.normal);
+    const double area = dot(mesh::area_vector(s.points, t), s.normal);
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3<double> x{};
       for (std::size_t i = 0; i < 3; ++i)

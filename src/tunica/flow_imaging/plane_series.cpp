@@ -9,6 +9,7 @@
 #include "tunica/bc/inflow.hpp"
 #include "tunica/flow_imaging/disk_map.hpp"
 #include "tunica/flow_imaging/read_series.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 
 namespace tunica::flow_imaging {
@@ -16,11 +17,6 @@ namespace tunica::flow_imaging {
 namespace {
 
 namespace dimension = config::dimension;
-
-Vec3<double> area_of(const std::vector<Vec3<double>>& points, const std::array<std::int32_t, 3>& t) {
-  const auto x = [&](std::size_t i) { return points[static_cast<std::size_t>(t[i])]; };
-  return 0.5 * cross(x(1) - x(0), x(2) - x(0));
-}
 
 /// One frame; the first one gives points and triangles.
 void take_frame(const std::string& file, const PlaneFiles& files, PlaneSeries& series) {
@@ -62,7 +58,7 @@ void take_frame(const std::string& file, const PlaneFiles& files, PlaneSeries& s
 void find_normal(PlaneSeries& series, const std::string& where) {
   double area = 0;
   for (const auto& t : series.triangles) {
-    const auto a = area_of(series.points, t);
+    const auto a = mesh::area_vector(series.points, t);
     series.normal = series.normal + a;
     area += norm(a);
   }
@@ -122,7 +118,7 @@ config::Schema<PlaneFiles> PlaneFiles::schema() {
 double PlaneSeries::flow(std::size_t frame) const {
   double sum = 0;
   for (const auto& t : triangles)
-    for (const auto n : t) sum += dot(area_of(points, t), velocity[frame][static_cast<std::size_t>(n)]) / 3;
+    for (const auto n : t) sum += dot(mesh::area_vector(points, t), velocity[frame][static_cast<std::size_t>(n)]) / 3;
   return sum;
 }
 
@@ -158,8 +154,8 @@ NodalCourse plane_at_nodes(const PlaneSeries& plane, const OpeningMesh& opening,
   start = start - dot(start, inward) * inward;
   const auto from = disk_map(plane.points, plane.triangles, plane.normal, transpose(rotation) * start, "plane");
   double plane_area = 0, opening_area = 0;
-  for (const auto& t : plane.triangles) plane_area += norm(area_of(plane.points, t));
-  for (const auto& t : opening.triangles) opening_area += norm(area_of(opening.points, t));
+  for (const auto& t : plane.triangles) plane_area += norm(mesh::area_vector(plane.points, t));
+  for (const auto& t : opening.triangles) opening_area += norm(mesh::area_vector(opening.points, t));
   // Nodes on edges lie on the same map as the corners: between their ends.
   const auto to = disk_map(opening.points, opening.triangles, inward, start, opening.name);
   auto disk = to;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "tunica/base/error.hpp"
-#include "tunica/flow_imaging/dense.hpp"
 
 namespace tunica::flow_imaging {
 
@@ -29,7 +29,7 @@ double matern(double distance, double length) {
 }  // namespace
 
 struct ProfileFit::Factor {
-  dense::Matrix lower;
+  Eigen::LLT<Eigen::MatrixXd> cholesky;
 };
 
 LumenVoxels lumen_voxels(const VelocitySeries& series, const mesh::MeshData& data, double tissue_magnitude) {
@@ -194,20 +194,10 @@ void ProfileFit::place_rim() {
   }
 }
 
-/// Of the correlations, with the noise in units of the variance of the profile.
-std::shared_ptr<const ProfileFit::Factor> ProfileFit::factorised(double variance) const {
-  const auto n = observations_.size(), all = n + rim_.size();
-  auto factor = std::make_shared<Factor>(Factor{correlations_});
-  for (std::size_t i = 0; i < all; ++i)
-    factor->lower(i, i) +=
-        i < n ? std::max(std::pow(observations_[i].deviation, 2) / variance, least_noise) : held * held;
-  dense::factorise(factor->lower, "profile of " + section_.name);
-  return factor;
-}
-
 void ProfileFit::prepare() {
   const auto n = observations_.size(), all = n + rim_.size();
-  correlations_ = dense::Matrix(all, all);
+  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  Eigen::MatrixXd correlated = Eigen::MatrixXd::Zero(index(all), index(all));  // its lower triangle
   for (std::size_t i = 0; i < all; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       double c = 0;
@@ -215,8 +205,19 @@ void ProfileFit::prepare() {
         for (const auto& part : observations_[i].parts) c += part.weight * correlation(observations_[j], part.at);
       else
         c = j < n ? correlation(observations_[j], rim_[i - n]) : correlation(rim_[i - n], rim_[j - n]);
-      correlations_(i, j) = c;
+      correlated(index(i), index(j)) = c;
     }
+  // With the noise in units of the variance of the profile.
+  const auto factorised = [&](double variance) {
+    Eigen::MatrixXd system = correlated;
+    for (std::size_t i = 0; i < all; ++i)
+      system(index(i), index(i)) +=
+          i < n ? std::max(std::pow(observations_[i].deviation, 2) / variance, least_noise) : held * held;
+    auto factor = std::make_shared<Factor>(Factor{Eigen::LLT<Eigen::MatrixXd>(system)});
+    if (factor->cholesky.info() != Eigen::Success)
+      throw SolverError(fmt::format("profile of {}: its {} voxels do not determine it", section_.name, n));
+    return factor;
+  };
   factor_along_ = factorised(along_);
   factor_across_ = factorised(across_);
   std::vector<double> right(all, 0.0);
@@ -232,7 +233,7 @@ void ProfileFit::prepare() {
 
 /// Weights of the voxels alone: on the rim the velocity is zero.
 std::vector<double> ProfileFit::solved(const Factor& factor, std::vector<double> right) const {
-  dense::solve(factor.lower, right);
+  factor.cholesky.solveInPlace(Eigen::Map<Eigen::VectorXd>(right.data(), static_cast<Eigen::Index>(right.size())));
   right.resize(observations_.size());
   return right;
 }

@@ -14,7 +14,6 @@
 
 #include "tunica/flow_imaging/corrections.hpp"
 #include "tunica/flow_imaging/cross_section.hpp"
-#include "tunica/flow_imaging/dense.hpp"
 #include "tunica/flow_imaging/lumen_samples.hpp"
 
 namespace tunica::flow_imaging {
@@ -71,7 +70,6 @@ class ProfileFit {
   void place_rim();
   void prepare();
   struct Factor;
-  std::shared_ptr<const Factor> factorised(double variance) const;
   double correlation(const std::array<double, 3>& a, const std::array<double, 3>& b) const;
   double correlation(const Observation& o, const std::array<double, 3>& at) const;
   std::vector<double> correlations(const std::array<double, 3>& at) const;
@@ -85,7 +83,6 @@ class ProfileFit {
   double length_, along_ = 0, across_ = 0;  ///< m; variances of the velocities along and across the normal [m^2/s^2]
   std::vector<Observation> observations_;
   std::vector<std::array<double, 3>> rim_;
-  dense::Matrix correlations_{0, 0};
   std::vector<double> flow_weights_;
   double flow_deviation_ = 0;
   std::shared_ptr<const Factor> factor_along_, factor_across_;

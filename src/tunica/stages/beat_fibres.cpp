@@ -10,6 +10,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/viewer/surface.hpp"
 
 namespace tunica::stages {
 
@@ -55,13 +56,8 @@ std::vector<Spot> spots_of(const MeshData& data) {
     if (side == Side::ring) continue;
     for (const auto& t : face.triangles) {
       const auto element = boundary.triangles()[static_cast<std::size_t>(boundary.find(t))].element;
-      const auto region = std::find_if(data.regions.begin(), data.regions.end(), [&](const auto& r) {
-        return element >= r.first_element && element < r.end_element;
-      });
-      std::array<Vec3<double>, 3> x;
-      for (std::size_t k = 0; k < 3; ++k) x[k] = data.points[static_cast<std::size_t>(t[k])];
-      spots.push_back({element, &*region, side == Side::inner, (1.0 / 3.0) * (x[0] + x[1] + x[2]),
-                       0.5 * norm(cross(x[1] - x[0], x[2] - x[0]))});
+      spots.push_back({element, &viewer::region_of(data, element), side == Side::inner, mesh::centroid(data.points, t),
+                       norm(mesh::area_vector(data.points, t))});
     }
   }
   return spots;

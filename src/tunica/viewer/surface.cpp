@@ -19,11 +19,6 @@ Nodes sorted(Nodes nodes) {
   return nodes;
 }
 
-const mesh::RegionData& region_of(const MeshData& data, std::int64_t element) {
-  return *std::find_if(data.regions.begin(), data.regions.end(),
-                       [&](const auto& r) { return element >= r.first_element && element < r.end_element; });
-}
-
 /// Faces whose triangles touch the interface are rings at the ends of the wall; its outside does not.
 std::set<std::string> rings_of(const MeshData& data, const FaceRoles& roles) {
   std::vector<bool> at_blood(data.points.size(), false);
@@ -196,6 +191,11 @@ void append(const MeshData& data, const Cut& cut, const std::string& kind, const
 }
 
 }  // namespace
+
+const mesh::RegionData& region_of(const MeshData& data, std::int64_t element) {
+  return *std::find_if(data.regions.begin(), data.regions.end(),
+                       [&](const auto& r) { return element >= r.first_element && element < r.end_element; });
+}
 
 Skeleton surface_of(const MeshData& data, const FaceRoles& roles) {
   const auto groups = sort_triangles(data, roles);

@@ -32,6 +32,9 @@ struct Skeleton {
   std::size_t wall_end = 0, blood_first = 0, inside_end = 0, blood_end = 0;
 };
 
+/// The region that an element belongs to.
+const mesh::RegionData& region_of(const mesh::MeshData& data, std::int64_t element);
+
 /// The boundary of all regions. Groups: "outer" and "inner" by the region of the wall ("lumen" where there is no
 /// wall), "end" (rings of the wall) and "opening" by the face. Corners of the elements only: quadratic meshes are
 /// given subdivided. Throws InputError as mesh::Boundary.
