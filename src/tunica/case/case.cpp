@@ -103,6 +103,9 @@ void check_chain(const Case& c, Problems& problems) {
   if (c.fibres && !c.solves_wall()) problems.add("fibres", "is given, but the analysis has no wall", "remove it");
   if (c.compare.size() == 1)
     problems.add("compare", "names fewer than two laws", "add `compare: {neo_hooke: {material: ...}, ...}`");
+  if (c.outlets && c.outlets->continued && !c.start)
+    problems.add("outlets.continued", "is true, but there is no `start` to go on from",
+                 "name the start.checkpoint that `tunica tune` has left, or remove the key");
   if (!(c.mesh || c.fibres) || !c.prestress) return;
   const char* remedy = "remove it: that of the stage `prestress` is taken";
   if (c.wall && c.wall->prestress) problems.add("wall.prestress", "is given, and the section `prestress` too", remedy);

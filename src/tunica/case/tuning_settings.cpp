@@ -71,6 +71,10 @@ Schema<TuningCase> TuningCase::schema() {
       .path("file", &TuningCase::given_file,
             "The outlets found, written by `tunica tune` and read by `tunica run`; outlets.yaml in `output` when left "
             "out")
+      .flag("continued", &TuningCase::continued,
+            "The run starts from the end of a beat with these outlets, and their pressures go on from there; else "
+            "they begin as the file has them, with the state of a periodic beat")
+      .by_default()
       .check(check_outlets);
 }
 

@@ -23,6 +23,7 @@ struct TuningCase {
   std::optional<double> step;  ///< of the tuning runs [s]; none: a two-hundredth of the period
   std::filesystem::path output;
   std::optional<std::filesystem::path> given_file;  ///< none: in `output`
+  bool continued = false;                           ///< P_c goes on from the state that the run starts from
 
   double mean() const { return (systolic + 2 * diastolic) / 3; }  ///< [Pa]
   std::filesystem::path file() const { return given_file.value_or(output / "outlets.yaml"); }

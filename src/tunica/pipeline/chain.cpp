@@ -305,11 +305,11 @@ bool is_case(const fs::path& file, MPI_Comm comm) {
 OwnRecord::OwnRecord(const std::string& name, const fs::path& file, const fs::path& folder, int ranks,
                      const artifacts::ProgramVersion& program)
     : folder_(folder) {
-  const auto stage = std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == name; });
+  const Stage& of_name = stage(name);
   const config::Document document(config::read_text(file), file.string());
   const config::Origin origin{.name = file.string(), .folder = file.parent_path()};
   record_.stage = name;
-  record_.inputs = artifacts::inputs_of(stage->settings(document, origin), stage->without);
+  record_.inputs = artifacts::inputs_of(of_name.settings(document, origin), of_name.without);
   record_.ranks = ranks;
   record_.version = program.version;
   record_.commit = program.commit;

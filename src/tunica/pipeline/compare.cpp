@@ -17,6 +17,7 @@
 #include "tunica/pipeline/foresight.hpp"
 #include "tunica/pipeline/plan.hpp"
 #include "tunica/pipeline/side_by_side.hpp"
+#include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
 

@@ -19,6 +19,7 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/figures.hpp"
 #include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
 
@@ -148,9 +149,7 @@ void write_levels(const ConvergeRequest& request, Study& study) {
 
 fs::path folder_of_stage(const Level& level, const Chain& chain, const char* stage) {
   if (level.name != "case") return level.results / stage;
-  const auto at =
-      std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == std::string(stage); });
-  return folder_of(chain, *at);
+  return folder_of(chain, pipeline::stage(stage));
 }
 
 void read_level(Level& level, const Chain& chain) {

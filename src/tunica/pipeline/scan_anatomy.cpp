@@ -27,12 +27,6 @@ constexpr double fine_spacing = 1e-3;
 /// Share of the radius in a direction from which on the edge of the lumens is that of the wall, and no flap.
 constexpr double at_edge = 0.9;
 
-fs::path folder_of(const Chain& chain, const char* stage) {
-  const auto found =
-      std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == std::string(stage); });
-  return folder_of(chain, *found);
-}
-
 /// The lumen and the wall of the mesh, whichever of them the case computes.
 analysis::RunDescription describe(const Chain& chain, const case_file::MeshSettings& meshes) {
   case_file::Case c = chain.settings;
@@ -151,7 +145,7 @@ std::vector<double> pressure_differences(const fs::path& file, const analysis::A
 
 case_file::MeshSettings meshes_of(const Chain& chain) {
   if (!chain.settings.mesh) return chain.settings.meshes;
-  const fs::path file = folder_of(chain, "mesh") / "meshes.yaml";
+  const fs::path file = folder_of(chain, stage("mesh")) / "meshes.yaml";
   const config::Document document(config::read_text(file), file.string());
   return config::parse_document(case_file::MeshSettings::schema(), document.part("meshes"),
                                 {.name = file.string(), .folder = file.parent_path()})
@@ -184,7 +178,7 @@ std::optional<ScanAnatomy> scan_anatomy(const Chain& chain, double spacing, MPI_
 }
 
 StationLoads station_loads(const Chain& chain, const ScanAnatomy& scan, const std::vector<double>& stations) {
-  const fs::path post = folder_of(chain, "post");
+  const fs::path post = folder_of(chain, stage("post"));
   StationLoads loads;
   StationMeans shear(scan.anatomy, stations), stress(scan.anatomy, stations);
   if (fs::exists(post / "wall_shear.vtp")) add_shear(post / "wall_shear.vtp", shear);

@@ -72,16 +72,8 @@ struct Stage {
 /// All stages, in order.
 const std::vector<Stage>& stages();
 
-/// The case with the mesh, directions and outlets that its stages have made, and its other stages still to be done;
-/// paths count from `folder`.
-config::Document case_on_common_mesh(const Chain& chain, const std::filesystem::path& folder);
-
-/// The case with the outlets that its stage has made and everything else still to be done, each stage in its own place
-/// below `folder`.
-config::Document case_with_common_outlets(const Chain& chain, const std::filesystem::path& folder);
-
-/// As case_on_common_mesh(), with the prestress and the state to start from of its stage as well.
-config::Document case_on_common_start(const Chain& chain, const std::filesystem::path& folder);
+/// The stage of that name, which has to be one of them.
+const Stage& stage(const std::string& name);
 
 /// Where a stage of the chain writes.
 std::filesystem::path folder_of(const Chain& chain, const Stage& stage);

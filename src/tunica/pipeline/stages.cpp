@@ -11,7 +11,7 @@
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/patience.hpp"
-#include "tunica/pipeline/stage.hpp"
+#include "tunica/pipeline/stage_documents.hpp"
 #include "tunica/stages/fibres/fibres.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/post/post.hpp"
@@ -30,135 +30,11 @@ using artifacts::Change;
 using config::Document;
 using NamedFiles = std::vector<std::pair<std::string, fs::path>>;
 
-// --- case files of the stages ---------------------------------------------------------------------------------------
-
-template <class T>
-const config::Description* description_of() {
-  static const auto description = T::schema().description();
-  return description.get();
-}
-
 template <class T>
 std::vector<config::Setting> settings_of(const Document& document, const config::Origin& origin) {
   std::vector<config::Setting> settings;
   config::parse_document(T::schema(), document, origin, &settings);
   return settings;
-}
-
-const Stage& stage(const std::string& name) {
-  return *std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == name; });
-}
-
-std::string path_to(const fs::path& file, const fs::path& folder) {
-  return fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal()).string();
-}
-
-/// The whole case with paths that count from a stage's folder.
-Document case_for(const Chain& chain, const fs::path& folder) {
-  Document document = chain.document;
-  config::move_paths(document, *description_of<case_file::Case>(), chain.file.parent_path(), folder);
-  return document;
-}
-
-/// What a stage left in its folder for the section `meshes`, or the section of the case.
-Document meshes_for(const Chain& chain, const fs::path& folder, bool with_fibres) {
-  const bool fibres = with_fibres && chain.settings.fibres;
-  if (!fibres && !chain.settings.mesh) return case_for(chain, folder).part("meshes");
-  const fs::path from = folder_of(chain, stage(fibres ? "fibres" : "mesh"));
-  const fs::path file = from / "meshes.yaml";
-  Document meshes = Document(config::read_text(file), file.string()).part("meshes");
-  config::move_paths(meshes, *description_of<case_file::MeshSettings>(), from, folder);
-  if (!chain.settings.solves_wall())
-    for (const char* part : {"wall", "interface"}) meshes.remove(part);
-  return meshes;
-}
-
-Document mesh_document(const Chain& chain, const fs::path& folder) {
-  Document mesh = case_for(chain, folder).part("mesh");
-  if (!mesh.has("title") && !chain.settings.title.empty()) mesh.set("title", chain.settings.title);
-  mesh.set("output", ".");
-  return mesh;
-}
-
-/// What the faces of a mesh of the stage `mesh` are.
-void name_ends(const Chain& chain, const Document& meshes, Document& fibres) {
-  std::ifstream stream(folder_of(chain, stage("mesh")) / "report.json");
-  const std::string first = nlohmann::json::parse(stream).at("faces").at(0).at("name");  // of the lumen, at the inlet
-  const std::string inlet = first.substr(first.find('_'));
-  if (!fibres.has("inlet")) fibres.set("inlet", Document(fmt::format("[wall{0}, lumen{0}]", inlet)));
-  if (!fibres.has("outer")) fibres.set("outer", "wall_outer");
-  if (!fibres.has("tears") && meshes.has("wall.regions.true_lumen_wall") && meshes.has("wall.regions.false_lumen_wall"))
-    fibres.set("tears", Document("{true_lumen: true_lumen_wall, false_lumen: false_lumen_wall}"));
-}
-
-Document fibres_document(const Chain& chain, const fs::path& folder) {
-  Document fibres = case_for(chain, folder).part("fibres");
-  const Document meshes = meshes_for(chain, folder, false);
-  if (chain.settings.mesh) name_ends(chain, meshes, fibres);
-  if (!chain.settings.title.empty()) fibres.set("title", chain.settings.title);
-  fibres.set("meshes", meshes);
-  fibres.set("output", ".");
-  return fibres;
-}
-
-/// A case on the mesh that was made, without the sections of stages.
-Document computed_case(const Chain& chain, const fs::path& folder) {
-  Document document = case_for(chain, folder);
-  for (const char* section : {"mesh", "fibres", "prestress", "post", "measured", "report", "compare"})
-    document.remove(section);
-  document.set("meshes", meshes_for(chain, folder, true));
-  return document;
-}
-
-Document prestress_document(const Chain& chain, const fs::path& folder) {
-  Document document = computed_case(chain, folder);
-  document.set("prestress", case_for(chain, folder).part("prestress"));
-  document.set("prestress.output", ".");
-  document.set("output.directory", ".");
-  return document;
-}
-
-/// The prestress and the state that the case starts from, where the stage `prestress` has found them.
-void set_start(const Chain& chain, const fs::path& folder, Document& document) {
-  if (!chain.settings.finds_prestress()) return;
-  const fs::path found = folder_of(chain, stage("prestress"));
-  document.set("wall.prestress", path_to(found / "wall.vtu", folder));
-  document.set("start", path_to(found / "start.checkpoint", folder));
-}
-
-/// The outlets, where the stage `outlets` has found them.
-void set_outlets_file(const Chain& chain, const fs::path& folder, Document& document) {
-  const Stage& outlets = stage("outlets");
-  if (outlets.wanted(chain.settings))
-    document.set("outlets.file", path_to(folder_of(chain, outlets) / outlets.result, folder));
-}
-
-Document outlets_document(const Chain& chain, const fs::path& folder) {
-  Document document = computed_case(chain, folder);
-  set_start(chain, folder, document);
-  document.set("outlets.output", ".");
-  document.set("output.directory", ".");
-  return document;
-}
-
-Document run_document(const Chain& chain, const fs::path& folder) {
-  Document document = computed_case(chain, folder);
-  set_start(chain, folder, document);
-  set_outlets_file(chain, folder, document);
-  document.set("output.directory", ".");
-  return document;
-}
-
-Document post_document(const Chain& chain, const fs::path& folder) {
-  Document document = run_document(chain, folder);
-  Document figures = case_for(chain, folder).part("post");
-  const bool has_window = figures.has("period") || figures.has("from") || figures.has("until");
-  if (!has_window && document.has("time.cycles.period")) figures.set("period", document.text("time.cycles.period"));
-  document.set("post", figures);
-  document.set("post.output", ".");
-  if (chain.document.has("measured")) document.set("measured", case_for(chain, folder).part("measured"));
-  document.set("output.directory", path_to(folder_of(chain, stage("run")), folder));
-  return document;
 }
 
 /// The fields and histories of a run are as they are since this file was written.
@@ -170,23 +46,6 @@ NamedFiles records(const Chain& chain) {
     if (s.wanted(chain.settings) && s.name != std::string("report"))
       files.emplace_back(s.name, folder_of(chain, s) / "stage.json");
   return files;
-}
-
-Document report_document(const Chain& chain, const fs::path& folder) {
-  Document document;
-  if (!chain.settings.title.empty()) document.set("title", chain.settings.title);
-  document.set("case", path_to(chain.file, folder));
-  for (const auto& s : stages())
-    if (s.wanted(chain.settings) && s.name != std::string("report"))
-      document.set(fmt::format("stages.{}", s.name), path_to(folder_of(chain, s), folder));
-  const auto wanted = chain.settings.report.value_or(case_file::ReportSettings{});
-  document.set("pictures", wanted.pictures ? "true" : "false");
-  document.set("view", wanted.view ? "true" : "false");
-  document.set("length_unit", chain.settings.output.units.length);
-  if (const fs::path bands = chain.output / "converge/converge.json"; fs::exists(bands))
-    document.set("convergence", path_to(bands, folder));
-  document.set("output", ".");
-  return document;
 }
 
 // --- what is done ---------------------------------------------------------------------------------------------------
@@ -309,27 +168,8 @@ bool more_steps(const Change& change) {
 
 }  // namespace
 
-Document case_on_common_mesh(const Chain& chain, const fs::path& folder) {
-  Document document = case_for(chain, folder);
-  for (const char* key : {"mesh", "fibres", "compare", "prestress.output", "post.output"}) document.remove(key);
-  document.set("meshes", meshes_for(chain, folder, true));
-  set_outlets_file(chain, folder, document);
-  return document;
-}
-
-Document case_with_common_outlets(const Chain& chain, const fs::path& folder) {
-  Document document = case_for(chain, folder);
-  for (const auto& s : stages()) document.remove(s.output);
-  document.remove("compare");
-  set_outlets_file(chain, folder, document);
-  return document;
-}
-
-Document case_on_common_start(const Chain& chain, const fs::path& folder) {
-  Document document = case_on_common_mesh(chain, folder);
-  set_start(chain, folder, document);
-  if (document.has("wall.prestress")) document.remove("prestress");
-  return document;
+const Stage& stage(const std::string& name) {
+  return *std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == name; });
 }
 
 fs::path folder_of(const Chain& chain, const Stage& stage) {
@@ -418,7 +258,7 @@ const std::vector<Stage>& stages() {
        .by_hand = "tunica tune case.yaml",
        .output = "outlets.output",
        .result = "outlets.yaml",
-       .outputs = {"outlets.yaml", "tuning.*", "pressure.svg"},
+       .outputs = {"outlets.yaml", "start.checkpoint", "tuning.*", "pressure.svg"},
        .wanted = [](const case_file::Case& c) { return c.outlets && !c.outlets->given_file; },
        .document = outlets_document,
        .description = description_of<case_file::Case>(),

@@ -17,10 +17,7 @@ namespace fs = std::filesystem;
 ViewSources of_stages(const fs::path& file) {
   std::vector<Problem> warnings;
   const Chain chain = read_chain(file, std::nullopt, warnings);
-  const auto stage = [&](const char* name) {
-    return *std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == std::string(name); });
-  };
-  const Stage run = stage("run");
+  const Stage& run = stage("run");
   const fs::path folder = folder_of(chain, run);
   if (!fs::exists(folder / run.file))
     throw InputError(folder.string(), "holds no results", "do the case first: tunica run " + file.string());

@@ -38,9 +38,7 @@ Computed read_all(const WhatIfPlan& plan, const Chain& chain) {
     all.post.push_back(read_json(file));
     all.figures.push_back(read_figures(file));
   };
-  const auto post =
-      std::find_if(stages().begin(), stages().end(), [](const Stage& s) { return s.name == std::string("post"); });
-  add("as it is", folder_of(chain, *post) / "post.json");
+  add("as it is", folder_of(chain, stage("post")) / "post.json");
   for (std::size_t k = 0; k < plan.settings.variants.size(); ++k)
     add(plan.settings.variants[k].first, plan.folder_of(k) / "post/post.json");
   return all;

@@ -9,6 +9,7 @@
 #include "tunica/case/fibres_case.hpp"
 #include "tunica/case/study_case.hpp"
 #include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
 
@@ -72,7 +73,7 @@ void change_pressure(Document& document, const WhatIf& variant) {
                      "add `outlets`, or change the outlets themselves by `set`");
   scale_key(document, "outlets.systolic", *variant.pressure);
   scale_key(document, "outlets.diastolic", *variant.pressure);
-  document.remove("outlets.file");
+  for (const char* found : {"outlets.file", "outlets.continued"}) document.remove(found);
 }
 
 /// All that does not touch the mesh. `faces`: with a flow.
@@ -120,9 +121,7 @@ Document on_changed_mesh(const Chain& chain, const fs::path& folder) {
   document.remove("mesh");
   document.set("meshes", meshes);
   if (chain.settings.fibres && chain.settings.mesh) {
-    const auto made =
-        std::find_if(stages().begin(), stages().end(), [](const Stage& s) { return s.name == std::string("fibres"); });
-    const Document fibres = made->document(chain, folder);  // knows inlet, outside and tears of the mesh that was made
+    const Document fibres = fibres_document(chain, folder);  // knows inlet, outside and tears of the mesh that was made
     for (const char* key : {"inlet", "outer", "tears"})
       if (fibres.has(key)) document.set(fmt::format("fibres.{}", key), fibres.part(key));
   }
@@ -173,6 +172,8 @@ std::string variant_text(const WhatIfPlan& plan, std::size_t k, const Chain& cha
   Document document = variant.changes_mesh() ? on_changed_mesh(chain, folder)
                       : variant.set.empty()  ? case_on_common_start(chain, folder)
                                              : case_on_common_mesh(chain, folder);
+  const bool other_beat = variant.pressure || variant.heart_rate || variant.stroke_volume;
+  if (other_beat && !variant.changes_mesh() && variant.set.empty()) add_leading_beat(chain, document);
   change(document, plan, k, faces_with_flow(chain.settings));
   document.set("output.directory", ".");
   return fmt::format("# {} of `tunica what-if` {}\n", name, plan.file.filename().string()) +

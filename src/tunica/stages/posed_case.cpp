@@ -50,6 +50,11 @@ void check_tables(const case_file::Case& c, const mesh::MeshData& data) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+bool is_tuned(const std::string& face, const case_file::TuningCase& outlets) {
+  return std::any_of(outlets.fractions.begin(), outlets.fractions.end(),
+                     [&](const auto& f) { return f.first == face; });
+}
+
 analysis::PostSettings post_settings(const case_file::Case& c) {
   return c.post ? *c.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
 }
@@ -96,8 +101,10 @@ void start_from(const fs::path& file, const case_file::Case& c, const distribute
         std::find_if(outlets.begin(), outlets.end(), [&](const auto& o) { return o.face == outlet.face(); });
     if (found == outlets.end()) continue;
     outlet.set_initial_flow(found->flow);
+    const bool goes_on = c.outlets && c.outlets->continued && is_tuned(outlet.face(), *c.outlets);
     for (const auto& [face, condition] : c.boundary)
-      if (const auto* rcr = std::get_if<bc::Rcr>(&condition); rcr && face == outlet.face() && !rcr->initial_pressure)
+      if (const auto* rcr = std::get_if<bc::Rcr>(&condition);
+          rcr && face == outlet.face() && (goes_on || !rcr->initial_pressure))
         outlet.restore(std::array{found->flow, found->pressure - rcr->proximal * found->flow});
   }
 }

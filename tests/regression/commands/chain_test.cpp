@@ -9,6 +9,7 @@
 
 #include "program.hpp"
 #include "tube_case.hpp"
+#include "tunica/files/csv_file.hpp"
 
 namespace tunica::test {
 namespace {
@@ -22,6 +23,25 @@ class ChainCommand : public Program {
                        ", rho_infinity: 0.2}\n" + "output: {" + output + "}\n";
     if (!from.empty()) text.replace(text.find(from), from.size(), to);
     write("case.yaml", text);
+  }
+  /// Cycles of the tube with a wall, the first of them to find the outlet.
+  void write_tuned(const std::string& output) const {
+    write("inflow.csv", "t,Q\n0,5\n0.1,5\n0.3,80\n0.5,5\n0.8,5\n");  // even about the start of a beat
+    write("case.yaml", std::string(coarse_tube) +
+                           "analysis: fsi\nelements: linear\nfluid: {}\n"
+                           "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 0.4 MPa, poisson_ratio: "
+                           "0.49}}}\n"
+                           "boundary:\n"
+                           "  lumen_inlet: {flow: {table: {file: inflow.csv, time_unit: s, unit: ml/s}}}\n"
+                           "  \"wall_*\": fixed\n"
+                           "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
+                           "prestress: {flow: {pressure: 75 mmHg, inflow: 5 ml/s, step: 10 ms, steps: 20}, tolerance: "
+                           "0.01 mm}\n"
+                           "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {lumen_outlet: 1}, step: 10 "
+                           "ms, tolerance: 0.1}\n"
+                           "time: {step: 10 ms, steps: 20, rho_infinity: 0.2}\npost: {}\nreport: {pictures: false}\n"
+                           "output: {directory: " +
+                           output + "}\n");
   }
   void expect_printed(const std::string& text) const {
     EXPECT_NE(printed().find(text), std::string::npos) << text << "\nin\n" << printed();
@@ -110,26 +130,7 @@ TEST_F(ChainCommand, KilledAndStartedAgainItComesToTheSameResult) {
                "run/faces.csv", "run/balance.csv", "run/checkpoints/step_00000030.checkpoint"});
 }
 
-/// Two cycles of the tube, the first of them to find the outlet.
 TEST_F(ChainCommand, KilledWhileOutletsAreTunedItComesToTheSameResult) {
-  write("inflow.csv", "t,Q\n0,5\n0.2,80\n0.4,5\n0.8,5\n");
-  const auto write_tuned = [&](const std::string& output) {
-    write("case.yaml", std::string(coarse_tube) +
-                           "analysis: fsi\nelements: linear\nfluid: {}\n"
-                           "wall: {density: 1100 kg/m^3, material: {neo_hooke: {young_modulus: 0.4 MPa, poisson_ratio: "
-                           "0.49}}}\n"
-                           "boundary:\n"
-                           "  lumen_inlet: {flow: {table: {file: inflow.csv, time_unit: s, unit: ml/s}}}\n"
-                           "  \"wall_*\": fixed\n"
-                           "  wall_outer: {support: {stiffness: 1e7 N/m^3}}\n"
-                           "prestress: {flow: {pressure: 75 mmHg, inflow: 5 ml/s, step: 10 ms, steps: 20}, tolerance: "
-                           "0.01 mm}\n"
-                           "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {lumen_outlet: 1}, step: 10 "
-                           "ms, tolerance: 0.1}\n"
-                           "time: {step: 10 ms, steps: 20, rho_infinity: 0.2}\npost: {}\nreport: {pictures: false}\n"
-                           "output: {directory: " +
-                           output + "}\n");
-  };
   write_tuned("whole");
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
   write_tuned("out");
@@ -141,6 +142,39 @@ TEST_F(ChainCommand, KilledWhileOutletsAreTunedItComesToTheSameResult) {
   ASSERT_EQ(tunica("run case.yaml"), 0) << printed();
   expect_printed("(outlets for the pressures and flows that are asked for): it was interrupted");
   expect_same("out/", "whole/", {"outlets/outlets.yaml", "run/faces.csv", "run/balance.csv"});
+}
+
+/// The run begins where the beat ended that the outlet was tuned by: its pressures go on the line of the last ones.
+/// Variants that cannot begin there compute a beat first.
+TEST_F(ChainCommand, RunGoesOnFromTheBeatThatTunedTheOutlets) {
+  write_tuned("out");
+  ASSERT_EQ(tunica("run case.yaml --until run"), 0) << printed();
+  EXPECT_NE(read("out/run/case.yaml").find("start: ../outlets/start.checkpoint"), std::string::npos);
+  const auto pressures = [&](const std::string& run) {
+    return files::read_csv(folder_ / run / "faces.csv", "").column("lumen_outlet pressure [mmHg]");
+  };
+  const auto before = pressures("out/outlets/cycle_1"), after = pressures("out/run");
+  ASSERT_EQ(before.size(), 80U);
+  ASSERT_GE(after.size(), 20U);
+  EXPECT_NEAR(after[0], 2 * before[79] - before[78], 0.05);
+  EXPECT_NEAR(after[1], 3 * before[79] - 2 * before[78], 0.2);
+
+  ASSERT_EQ(tunica("converge case.yaml --meshes 1 --steps 1 --quantity 'openings/*/pressure/mean_mmHg'"), 0)
+      << printed();
+  EXPECT_NE(read("out/converge/step_1/run/case.yaml").find("outlets/start.checkpoint"), std::string::npos);
+  const std::string finer = read("out/converge/mesh_1/run/case.yaml");
+  EXPECT_EQ(finer.find("outlets/start.checkpoint"), std::string::npos);
+  EXPECT_NE(finer.find("steps: 100"), std::string::npos) << finer;
+}
+
+/// Without a state to go on from there is nothing to continue.
+TEST_F(ChainCommand, ContinuedOutletsNeedAStart) {
+  write_tuned("out");
+  std::string text = read("case.yaml");
+  text.replace(text.find("tolerance: 0.1}"), 15, "tolerance: 0.1, continued: true}");
+  write("case.yaml", text);
+  EXPECT_EQ(tunica("check case.yaml"), 2);
+  expect_printed("outlets.continued");
 }
 
 TEST_F(ChainCommand, WallLawsSideBySide) {

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/outlets_file.hpp"
 #include "tunica/artifacts/run_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/case/case_text.hpp"
 #include "tunica/config/units.hpp"
+#include "tunica/files/atomic_file.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -26,7 +28,11 @@ namespace fs = std::filesystem;
 
 constexpr double probed_share = 0.35;  ///< of a cycle: enough of the pulse to tell compliance and paths
 constexpr int default_steps = 200;     ///< in a cycle
+constexpr const char* start_file = "start.checkpoint";
 constexpr int fewest_steps = 20;
+/// Of Newton's method in the tuning runs: pressures and flows are right to 1e-4 then (docs/performance.md), and the
+/// outlets to a hundredth at best.
+constexpr double newton_tolerance = 1e-3;
 
 /// Six digits: a machine that rounds otherwise comes to the same case, and finds its runs again.
 double rounded(double value) { return std::stod(fmt::format("{:.5e}", value)); }
@@ -105,6 +111,8 @@ class Tuning {
   void look_at_cycle(int number, const Plan& plan);
   void tell(int number, const TuningCycle& cycle);
   void write_result(const fs::path& file, const TuningCycle& cycle, const char* status);
+  /// For rank 0: start.checkpoint, the state at the end of a cycle.
+  void keep_end_of(const std::string& cycle);
   std::string command(const std::string& option) const {
     return fmt::format("tunica tune {}{}{}{}", request_.case_file.string(),
                        request_.directory ? " --output " + request_.directory->string() : "", option.empty() ? "" : " ",
@@ -162,6 +170,7 @@ void Tuning::read() {
   if (parallel::rank(comm_) != 0) case_.settings = case_file::parse_case(case_.text, request_.case_file);
   artifacts::name_faces(case_.settings, case_.mesh, comm_);
   if (request_.directory) case_.settings.outlets->output = *request_.directory;
+  case_.settings.outlets->continued = false;  // each run of the tuning has outlets of its own
   parallel::on_root(comm_, [&] {
     TuningBasis basis = tuning_basis(case_.settings, artifacts::faces_of(case_.mesh.data));
     inlet_ = basis.inlet;
@@ -191,10 +200,10 @@ void Tuning::prepare_folder() {
     if (!earlier && !request_.overwrite && fs::exists(settings().file()))
       throw InputError(settings().file().string(), "is there already, and no tuning beside it that it came from",
                        "replace it by --overwrite, or name another one by outlets.file");
-    files::try_outputs(folder(), {"tune.log", "tuning.json", "tuning.csv", "best.yaml"});
+    files::try_outputs(folder(), {"tune.log", "tuning.json", "tuning.csv", "best.yaml", start_file});
     files::try_output(settings().file());
     if (earlier && request_.overwrite) remove_earlier();
-    for (const fs::path& file : {settings().file(), folder() / "best.yaml"}) fs::remove(file);
+    for (const fs::path& file : {settings().file(), folder() / "best.yaml", folder() / start_file}) fs::remove(file);
     write_report(report_, case_.settings);
   });
 }
@@ -244,6 +253,7 @@ ReadCase Tuning::run_input(const std::string& name, const Plan& plan, int steps)
   c.time->steps = steps;
   c.time->cycles.reset();
   c.time->adaptive.reset();
+  c.newton.relative_tolerance = std::max(c.newton.relative_tolerance, newton_tolerance);
   c.output.every = steps;
   c.output.checkpoint_every = std::max(steps_per_cycle_ / 10, 1);
   run.inputs.settings["tuning"] =
@@ -365,9 +375,21 @@ void Tuning::write_result(const fs::path& file, const TuningCycle& cycle, const 
   write_report(report_, case_.settings);
 }
 
+void Tuning::keep_end_of(const std::string& cycle) {
+  const fs::path last = artifacts::checkpoint_file(folder() / cycle / "checkpoints", steps_per_cycle_);
+  const std::string damage = artifacts::damage_of(last);
+  if (!damage.empty())
+    throw InputError(last.string(), fmt::format("the state at the end of the cycle: {}", damage),
+                     command("--overwrite"));
+  files::write_atomically(folder() / start_file, fs::path(start_file).extension().string(), [&](const fs::path& file) {
+    fs::copy_file(last, file, fs::copy_options::overwrite_existing);
+  });
+}
+
 int Tuning::finish() {
   parallel::on_root(comm_, [&] {
     const TuningCycle& last = report_.cycles.back();
+    keep_end_of(fmt::format("cycle_{}", report_.cycles.size()));
     write_result(settings().file(), last, "converged");
     const double mean = last.foreseen().mean, rule = settings().mean();
     if (std::abs(mean / rule - 1) > settings().tolerance)
