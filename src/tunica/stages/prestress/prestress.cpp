@@ -8,34 +8,21 @@
 
 #include "tunica/artifacts/checkpoint.hpp"
 #include "tunica/artifacts/fields.hpp"
-#include "tunica/artifacts/histories.hpp"
-#include "tunica/artifacts/load_mesh.hpp"
-#include "tunica/artifacts/prestress_file.hpp"
 #include "tunica/artifacts/problem_input.hpp"
-#include "tunica/base/digits.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/check.hpp"
 #include "tunica/case/case_text.hpp"
 #include "tunica/case/table_ends.hpp"
-#include "tunica/config/json_text.hpp"
-#include "tunica/config/units.hpp"
 #include "tunica/coupling/nodal.hpp"
-#include "tunica/coupling/prestress.hpp"
-#include "tunica/drawing/plot.hpp"
-#include "tunica/field_io/array_name.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/hash.hpp"
-#include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/submesh.hpp"
-#include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/parallel/agree.hpp"
-#include "tunica/parallel/gather.hpp"
 #include "tunica/parallel/progress.hpp"
 #include "tunica/parallel/signals.hpp"
 #include "tunica/stages/prestress/flow_folder.hpp"
-#include "tunica/stages/prestress/steady_flow.hpp"
+#include "tunica/stages/prestress/prestress_run.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::stages {
@@ -46,12 +33,6 @@ namespace fs = std::filesystem;
 using coupling::at;
 using mesh::RegionKind;
 using nlohmann::ordered_json;
-
-constexpr const char* report_file = "prestress.json";
-
-parallel::NodeOrder node_order(const distributed::DistributedMesh& mesh) {
-  return {mesh.comm, std::span(mesh.original_ids).first(static_cast<std::size_t>(mesh.owned_nodes)), mesh.global_nodes};
-}
 
 /// Number of each node of the whole mesh in a part, -1 outside.
 std::vector<std::int64_t> numbers_in(const mesh::Submesh& part, std::size_t nodes) {
@@ -79,24 +60,6 @@ case_file::Case flow_case(const case_file::Case& c, const FaceConditions& condit
   return flow;
 }
 
-/// The wall of a case alone, in equilibrium with its loads.
-case_file::Case wall_case(const case_file::Case& c, const std::vector<std::string>& wall_faces) {
-  case_file::Case wall = c;
-  wall.analysis = case_file::StaticWall{};
-  wall.fluid.reset();
-  wall.mesh_motion.reset();
-  wall.meshes.interface.reset();
-  std::erase_if(wall.boundary, [&](const auto& condition) {
-    return std::find(wall_faces.begin(), wall_faces.end(), condition.first) == wall_faces.end();
-  });
-  return wall;
-}
-
-const char* name_of(coupling::PrestressSettings::Method method) {
-  using Method = coupling::PrestressSettings::Method;
-  return method == Method::stress ? "stress" : method == Method::stretch ? "stretch" : "inverse";
-}
-
 /// A wall that inertia holds in a run may be loose in statics.
 void check_support(const case_file::Case& wall, const std::vector<std::string>& wall_faces,
                    const std::vector<std::string>& interface_faces) {
@@ -109,68 +72,20 @@ void check_support(const case_file::Case& wall, const std::vector<std::string>& 
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-/// One `tunica prestress`. Its member functions are collective.
-class PrestressRun {
- public:
-  PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen);
-  /// To the end, or to another one, of which prestress.json tells. Returns the signal that stopped it, or 0.
-  int steps();
+}  // namespace
 
- private:
-  void compute();
-  void record_end(const char* status, const std::string& message);
-  void read();
-  void prepare_folder();
-  void find_flow();
-  std::string command(const char* option) const;
-  void take_steps_of_flow(coupling::Problem& problem);
-  void write_flow(const coupling::Problem& problem, const case_file::Case& flow);
-  void take_forces(const coupling::Problem& problem);
-  void find_wall();
-  coupling::ProblemInput wall_input();
-  /// What is left of the flow's forces once the pressure has its part [N], [local node][4].
-  std::vector<double> forces_beside_pressure() const;
-  void write_traction(const coupling::Problem& problem);
-  void set_corners_to_mean(std::vector<double>& traction) const;
-  void follow(const coupling::PrestressRecord& record);
-  void plot_history(const std::vector<coupling::PrestressRecord>& history);
-  void write_prestress_file(const coupling::WallPrestress& prestress);
-  void write_stress(const coupling::Problem& problem, const coupling::State& state);
-  void write_unloaded(const std::vector<double>& unloading);
-  void write_start(const coupling::State& wall);
-  void write_report(const coupling::PrestressResult& result);
-
-  const case_file::PrestressCase& settings() const { return *case_.prestress; }
-  double per_si(const std::string& unit, const config::Dimension& dimension) const {
-    return 1 / config::unit_factor(unit, dimension);
-  }
-  distributed::ResultsOptions results_in(const char* folder) const {
-    distributed::ResultsOptions options{.directory = folder_ / folder};
-    options.length_factor = per_si(case_.output.units.length, config::dimension::length);
-    return options;
-  }
-
-  MPI_Comm comm_;
-  const PrestressRequest& request_;
-  std::string text_;
-  case_file::Case case_;
-  fs::path folder_;
-  files::FolderLock lock_;  ///< rank 0
-  std::optional<parallel::Log> log_;
-  double started_ = MPI_Wtime();
-
-  artifacts::CheckedMesh whole_;  ///< rank 0
-  std::uint64_t mesh_hash_ = 0, lumen_hash_ = 0;
-  mesh::Submesh lumen_part_, wall_part_;  ///< rank 0
-  std::vector<std::string> wall_faces_, lumen_faces_, lumen_interface_, wall_interface_;
-
-  distributed::DistributedMesh lumen_, wall_;
-  coupling::State flow_;
-  SteadyRecord steady_;
-  std::vector<double> forces_;        ///< of the flow [N], and its pressure [Pa]; rank 0, [wall node in file order][4]
-  std::vector<double> local_forces_;  ///< forces_ at the local nodes
-  std::optional<artifacts::CsvTable> history_;  ///< rank 0
-};
+/// The wall of a case alone, in equilibrium with its loads.
+case_file::Case wall_case(const case_file::Case& c, const std::vector<std::string>& wall_faces) {
+  case_file::Case wall = c;
+  wall.analysis = case_file::StaticWall{};
+  wall.fluid.reset();
+  wall.mesh_motion.reset();
+  wall.meshes.interface.reset();
+  std::erase_if(wall.boundary, [&](const auto& condition) {
+    return std::find(wall_faces.begin(), wall_faces.end(), condition.first) == wall_faces.end();
+  });
+  return wall;
+}
 
 PrestressRun::PrestressRun(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen)
     : comm_(comm), request_(request) {
@@ -335,178 +250,6 @@ std::vector<double> PrestressRun::forces_beside_pressure() const {
   return forces;
 }
 
-// Force over area at a node, for the eye. Forces on corners of quadratic triangles are differences that say little:
-// they show the mean of the edges beside them.
-void PrestressRun::write_traction(const coupling::Problem& problem) {
-  std::vector<double> area(static_cast<std::size_t>(wall_.nodes()), 0.0);
-  for (const auto& face : wall_.faces) {
-    if (std::find(wall_interface_.begin(), wall_interface_.end(), face.name) == wall_interface_.end()) continue;
-    for (std::size_t k = 0; k < face.triangles.size(); ++k) {
-      const double third = norm(mesh::area_vector(wall_.points, face.triangles[k])) / 3.0;
-      for (const auto node : wall_.quadratic ? face.edges[k] : face.triangles[k])
-        area[static_cast<std::size_t>(node)] += third;
-    }
-  }
-  wall_.halo.update(area, 1);
-  std::vector<double> traction(local_forces_.size(), 0.0);
-  for (std::size_t k = 0; k < traction.size(); ++k)
-    if (area[k / 4] > 0) traction[k] = local_forces_[k] / area[k / 4];
-  if (wall_.quadratic) set_corners_to_mean(traction);
-  const std::string unit = case_.output.units.stress;
-  const distributed::NodalArray array{.name = field_io::array_name("traction", unit),
-                                      .components = 3,
-                                      .values = traction,
-                                      .stride = 4,
-                                      .factor = per_si(unit, config::dimension::pressure)};
-  distributed::ResultsWriter writer(problem.mesh(), results_in("traction"));
-  writer.write(0, 0.0, std::span(&array, 1), {});
-}
-
-// Mean of the edges of the interface that meet at a corner, [local node][4].
-void PrestressRun::set_corners_to_mean(std::vector<double>& traction) const {
-  std::vector<double> count(static_cast<std::size_t>(wall_.nodes()), 0.0);
-  for (const auto& name : wall_interface_) {
-    const auto& face = wall_.face(name);
-    for (std::size_t k = 0; k < face.triangles.size(); ++k)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (const auto corner : {face.triangles[k][i], face.triangles[k][(i + 1) % 3]}) {
-          count[static_cast<std::size_t>(corner)] += 1;
-          for (std::size_t c = 0; c < 3; ++c) {
-            double& value = traction[at(corner) + c];
-            value = count[static_cast<std::size_t>(corner)] > 1 ? value : 0.0;
-            value += traction[at(face.edges[k][i]) + c];
-          }
-        }
-  }
-  for (std::size_t k = 0; k < traction.size(); ++k)
-    if (count[k / 4] > 0) traction[k] /= count[k / 4];
-  wall_.halo.update(traction, 4);
-}
-
-void PrestressRun::follow(const coupling::PrestressRecord& r) {
-  const std::string unit = case_.output.units.length;
-  const double displacement = r.displacement * per_si(unit, config::dimension::length);
-  const Vec3<double> place = per_si(unit, config::dimension::length) * r.place;
-  const std::string found = r.failure.empty() ? fmt::format("{:.3e} {} near ({:.4g}, {:.4g}, {:.4g})", displacement,
-                                                            unit, place[0], place[1], place[2])
-                                              : fmt::format("no equilibrium ({})", r.failure);
-  const std::string line =
-      fmt::format("iteration {}: {}; {:.3g} of the update, load {:.3g}, newton {}, linear {}, {:.2f} s", r.iteration,
-                  found, r.relaxation, r.load, r.newton, r.linear, r.seconds);
-  // Nobody knows how many there will be: on a terminal the last one stands in the place of a bar.
-  if (log_->on_terminal()) {
-    log_->detail(line);
-    log_->status(fmt::format("prestress, {}", line.substr(0, line.find('\n')))
-                     .substr(0, static_cast<std::size_t>(log_->columns() - 1)));
-  } else {
-    log_->info(line);
-  }
-  parallel::on_root(comm_, [&] {
-    history_->append(r.iteration, std::array{displacement, r.relaxation, r.load, static_cast<double>(r.newton),
-                                             static_cast<double>(r.linear), r.seconds});
-  });
-}
-
-void PrestressRun::plot_history(const std::vector<coupling::PrestressRecord>& history) {
-  const std::string unit = case_.output.units.length;
-  const double factor = per_si(unit, config::dimension::length);
-  drawing::Series displacement{.name = "largest displacement", .x = {}, .y = {}, .markers = true},
-      asked{.name = "asked", .x = {}, .y = {}, .dashed = true};
-  for (const auto& r : history) {
-    displacement.x.push_back(r.iteration), displacement.y.push_back(factor * r.displacement);
-    asked.x.push_back(r.iteration), asked.y.push_back(factor * settings().fixed_point.tolerance);
-  }
-  parallel::on_root(comm_, [&] {
-    drawing::write_plot((folder_ / "fixed_point.svg").string(), {displacement, asked},
-                        {.title = "Fixed point of the prestress",
-                         .x_label = "iteration",
-                         .y_label = fmt::format("displacement under the load [{}]", unit),
-                         .log_y = true});
-  });
-}
-
-void PrestressRun::write_prestress_file(const coupling::WallPrestress& prestress) {
-  const int n = wall::components(prestress.kind) * coupling::prestress_points(wall_.quadratic);
-  std::vector<std::int64_t> ids;
-  std::vector<double> values;
-  for (std::size_t r = 0; r < wall_.regions.size(); ++r) {
-    const auto owned = static_cast<std::ptrdiff_t>(wall_.regions[r].owned_elements);
-    ids.insert(ids.end(), wall_.regions[r].element_ids.begin(), wall_.regions[r].element_ids.begin() + owned);
-    values.insert(values.end(), prestress.values[r].begin(), prestress.values[r].begin() + n * owned);
-  }
-  const auto all = parallel::gather_by_original_id({comm_, ids, wall_.global_elements}, values, n);
-  parallel::on_root(comm_,
-                    [&] { artifacts::write_prestress(folder_ / "wall.vtu", wall_part_.data, prestress.kind, all); });
-}
-
-// A mesh like any other: what a case or a mesher that wants the wall without its load reads.
-void PrestressRun::write_unloaded(const std::vector<double>& unloading) {
-  const auto U = parallel::gather_by_original_id(
-      node_order(wall_), std::span(unloading).first(3 * static_cast<std::size_t>(wall_.owned_nodes)), 3);
-  const double metres_per_unit = config::unit_factor(case_.output.units.length, config::dimension::length);
-  parallel::on_root(comm_, [&] {
-    mesh::MeshData unloaded = wall_part_.data;
-    for (std::size_t i = 0; i < unloaded.points.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c) unloaded.points[i][static_cast<int>(c)] -= U[3 * i + c];
-    unloaded.fields.clear();  // directions of fibres are those of the image
-    mesh_io::write_simvascular(folder_ / "unloaded", unloaded, RegionKind::wall, metres_per_unit);
-  });
-}
-
-void PrestressRun::write_stress(const coupling::Problem& problem, const coupling::State& state) {
-  artifacts::OutputFields fields(problem, wall_case(case_, wall_faces_));
-  distributed::ResultsWriter writer(wall_, results_in("wall"));
-  fields.write(writer, 0, 0.0, state);
-}
-
-void PrestressRun::write_start(const coupling::State& wall) {
-  const auto of_wall = parallel::gather_by_original_id(node_order(wall_), wall.velocity_pressure, 4);
-  std::vector<double> of_lumen, all;
-  if (case_.solves_fluid()) of_lumen = parallel::gather_by_original_id(node_order(lumen_), flow_.velocity_pressure, 4);
-  parallel::on_root(comm_, [&] {
-    all.assign(4 * whole_.data.points.size(), 0.0);
-    for (std::size_t k = 0; k < wall_part_.nodes.size(); ++k)
-      all[4 * static_cast<std::size_t>(wall_part_.nodes[k]) + 3] = of_wall[4 * k + 3];
-    for (std::size_t k = 0; k < lumen_part_.nodes.size(); ++k)
-      for (std::size_t c = 0; c < 4; ++c)
-        all[4 * static_cast<std::size_t>(lumen_part_.nodes[k]) + c] = of_lumen[4 * k + c];
-  });
-  const auto mesh = distributed::distribute(whole_.data, comm_);
-  artifacts::Checkpoint start;
-  start.mesh_hash = mesh_hash_;
-  for (auto* field : {&start.state.velocity_pressure, &start.state.acceleration, &start.state.displacement,
-                      &start.state.displacement_rate})
-    field->assign(at(mesh.nodes()), 0.0);
-  parallel::scatter_by_original_id(node_order(mesh), all, start.state.velocity_pressure, 4);
-  mesh.halo.update(start.state.velocity_pressure, 4);
-  for (std::size_t k = 3; k < start.state.velocity_pressure.size(); k += 4)
-    start.state.end_pressure.push_back(start.state.velocity_pressure[k]);
-  start.state.outlets = flow_.outlets;
-  artifacts::write_checkpoint(folder_ / "start.checkpoint", mesh, start);
-}
-
-void PrestressRun::write_report(const coupling::PrestressResult& result) {
-  ordered_json json;
-  json["program"] = {{"version", request_.program.version}, {"commit", request_.program.commit}};
-  json["case_file"] = request_.case_file.string();
-  json["case"] = text_;
-  json["mesh_hash"] = files::hex(mesh_hash_);
-  json["status"] = result.converged ? "completed" : "failed";
-  json["converged"] = result.converged;
-  if (!result.converged) json["failure"] = result.failure;
-  json["method"] = name_of(result.method);
-  if (!result.inverse_failure.empty()) json["no_unloaded_shape"] = result.inverse_failure;
-  json["iterations"] = result.history.size();
-  json["largest_displacement_m"] = result.history.empty() ? 0.0 : result.history.back().displacement;
-  if (case_.solves_fluid())
-    json["steady_flow"] = {{"steps", steady_.step},
-                           {"time_s", base::without_noise(steady_.time)},
-                           {"change_of_velocity_in_the_last_step", steady_.velocity_change},
-                           {"change_of_pressure_in_the_last_step", steady_.pressure_change}};
-  json["seconds"] = MPI_Wtime() - started_;
-  parallel::on_root(comm_, [&] { files::write_atomically(folder_ / report_file, config::json_text(json)); });
-}
-
 void PrestressRun::find_wall() {
   wall_ = distributed::distribute(wall_part_.data, comm_);
   coupling::Problem problem(wall_, wall_input());
@@ -597,8 +340,6 @@ void PrestressRun::compute() {
                          MPI_Wtime() - started_, (folder_ / "wall.vtu").string(),
                          (folder_ / "start.checkpoint").string()));
 }
-
-}  // namespace
 
 void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFace>& faces,
                      const std::vector<std::string>& wall_regions) {
