@@ -51,14 +51,27 @@ class Conditions {
   void lumen_flow(const ConditionPart& part);
   void lumen_velocity_in_time(const ConditionPart& part);
   void lumen_velocity_of_shape(const ConditionPart& part);
-  CaseKey& nodal_table(const ConditionPart& part, NodalVelocities velocities);
+  /// Notes values that are to be written, into the file `name` beside the case; `table` says where they are.
+  void nodal_table(const ConditionPart& part, const std::string& name, const char* unit, NodalValues values,
+                   CaseKey& table);
+  /// The text file of a condition in time and space; none where that has been reported.
+  const Entry* file_in_time(const ConditionPart& part);
+  /// The profile that the peer multiplies the value of a condition by.
+  NodalValues shape_of(const ConditionPart& part, bool zero_rim);
+  /// Has a load a profile that is not 1 everywhere?
+  bool has_shape(const ConditionPart& part) const;
   void lumen_pressure(const ConditionPart& part);
   void outlet(const ConditionPart& part);
   void zerod_outlet(const ConditionPart& part);
   void wall_motion(const ConditionPart& part);
   void wall_pressure(const ConditionPart& part);
+  void moved_by_nodes(const ConditionPart& part);
+  /// Of both: how the load goes with the face, and what holds it beside.
+  void lay_on_wall(const ConditionPart& part, CaseKey& load);
   void pressure_by_nodes(const ConditionPart& part);
   void traction(const ConditionPart& part);
+  void traction_by_nodes(const ConditionPart& part, const Entry& file);
+  void traction_in_time(const ConditionPart& part);
   void support(const ConditionPart& part);
 
   CaseKey& face(const ConditionPart& part) { return boundary_.section(part.entry.label, part.entry.where()); }
@@ -73,7 +86,7 @@ class Conditions {
   bool profile_is(const ConditionPart& part, const char* wanted) const {
     return context_.text(part.entry, "Profile", "Flat") == wanted;
   }
-  /// Normal loads are the same on the whole face.
+  /// Loads of supports and tractions are the same on the whole face.
   void check_load(const ConditionPart& part);
 
   Context& context_;

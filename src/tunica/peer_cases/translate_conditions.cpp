@@ -170,8 +170,8 @@ void Conditions::translate(const Entry& condition) {
       return context_.refuse(entry,
                              fmt::format("is `{}`, which {} does not have", text::printable(profile), context_.peer()),
                              "write Flat, Parabolic or User_defined");
-    if (!part->face.lumen || part->type != ConditionType::dirichlet)
-      return context_.missing(entry, "a load or a motion of the wall with a profile given node by node", "write Flat");
+    if (part->type == ConditionType::traction || part->type == ConditionType::robin)
+      return context_.missing(entry, "a support or a traction with a profile given node by node", "write Flat");
     if (condition.find("Spatial_profile_file_path") == nullptr)
       return context_.refuse(entry, "is User_defined without a file", "give Spatial_profile_file_path");
   }
@@ -190,10 +190,15 @@ void Conditions::translate(const ConditionPart& part) {
                : context_.missing(part.entry, "a wall that is loaded by a zero-dimensional model", "give the pressure");
   if (part.time == Dependence::spatial) return pressure_by_nodes(part);
   if (part.time == Dependence::general) {
-    if (blood && part.type == ConditionType::dirichlet) return lumen_velocity_in_time(part);
-    return context_.missing(*part.entry.find("Time_dependence"),
-                            "pressures, tractions and motions of walls given node by node and instant by instant",
-                            "use Spatial_values_file_path or Temporal_values_file_path");
+    if (part.type == ConditionType::dirichlet) return blood ? lumen_velocity_in_time(part) : wall_motion(part);
+    if (part.type == ConditionType::neumann) return pressure_by_nodes(part);
+    if (part.type == ConditionType::robin)
+      return context_.missing(*part.entry.find("Time_dependence"),
+                              "elastic support with a load given node by node and instant by instant",
+                              "give a steady load");
+    if (part.entry.find("Traction_values_file_path") != nullptr) return traction(part);
+    if (const Entry* file = file_in_time(part)) return traction_by_nodes(part, *file);
+    return;
   }
   if (outlets && (!blood || part.type != ConditionType::neumann))
     return context_.refuse(*part.entry.find("Time_dependence"), "is for Neu conditions of the blood", "write Steady");
