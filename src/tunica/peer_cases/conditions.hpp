@@ -20,8 +20,9 @@ struct ConditionPart {
   const FacePart& face;
   ConditionType type;
   Dependence time;
-  std::vector<double> value;    ///< of the key Value; 0 where there is none
-  const Entry* held = nullptr;  ///< another Add_BC of the same wall face: Dir 0 along some axes, beside this load
+  std::vector<double> value;  ///< of the key Value; 0 where there is none
+  /// Another Add_BC of the same wall face: Dir 0 along some axes, beside this load or this motion along other axes.
+  const Entry* held = nullptr;
 
   double scalar() const { return value.empty() ? 0.0 : value[0]; }
   bool vanishes() const {
@@ -40,8 +41,8 @@ class Conditions {
   void translate(const Entry& condition);
   std::optional<ConditionPart> part_of(const Entry& condition);
   void translate(const ConditionPart& part);
-  /// The condition beside the load of a wall face that holds the face along some axes; none where there is another
-  /// one, or more.
+  /// The condition beside the load or the motion of a wall face that holds the face along some other axes; none where
+  /// there is another one, or more.
   const Entry* held_beside(const Entry& load) const;
   void refuse_second(const Entry& condition);
   void check_mesh_equation();
@@ -64,6 +65,7 @@ class Conditions {
   void outlet(const ConditionPart& part);
   void zerod_outlet(const ConditionPart& part);
   void wall_motion(const ConditionPart& part);
+  std::vector<int> with_held(const ConditionPart& part) const;
   void wall_pressure(const ConditionPart& part);
   void moved_by_nodes(const ConditionPart& part);
   /// Of both: how the load goes with the face, and what holds it beside.

@@ -79,17 +79,13 @@ void Conditions::lumen_velocity_in_time(const ConditionPart& part) {
   const Entry* file = file_in_time(part);
   if (file == nullptr) return;
   const auto kind = file->key == "Bct_file_path" ? NodalValues::Kind::bct : NodalValues::Kind::in_time;
-  nodal_table(part, "velocities", "m/s",
-              {.kind = kind, .file = context_.located(*file), .face = {}, .where = file->where(), .table = {}},
+  nodal_table(part, "velocities", "m/s", {.kind = kind, .file = context_.located(*file), .where = file->where()},
               face(part).section("profile", part.entry.where()));
 }
 
 NodalValues Conditions::shape_of(const ConditionPart& part, bool zero_rim) {
   NodalValues shape{.kind = NodalValues::Kind::flat,
-                    .file = {},
-                    .face = {},
                     .where = part.entry.where(),
-                    .table = {},
                     .zero_rim = context_.flag(part.entry, "Zero_out_perimeter", zero_rim),
                     .unit_flow = context_.flag(part.entry, "Impose_flux")};
   if (profile_is(part, "Parabolic")) shape.kind = NodalValues::Kind::parabolic;

@@ -14,7 +14,7 @@ constexpr const char* text_in_time = "give Temporal_and_spatial_values_file_path
 
 void Conditions::wall_motion(const ConditionPart& part) {
   const auto held = axes(part.entry);
-  const std::string directions = held.empty() ? "all" : names_of(held),
+  const std::string directions = held.empty() ? "all" : names_of(with_held(part)),
                     source = context_.source(part.entry, "Effective_direction", part.entry.where());
   if (part.vanishes()) {
     face(part).section("fixed", context_.source(part.entry, "Type")).add("directions", directions, source);
@@ -42,12 +42,20 @@ void Conditions::wall_motion(const ConditionPart& part) {
   if (unsteady) table(part, "", moved.section("waveform", part.entry.where()));
 }
 
+/// The axes of a motion, and those along which another condition holds the face.
+std::vector<int> Conditions::with_held(const ConditionPart& part) const {
+  std::vector<int> all = axes(part.entry);
+  if (part.held != nullptr)
+    for (const int axis : axes(*part.held)) all.push_back(axis);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 /// Along the normals of the nodes where no axes are given, and zero at the rim unless that is switched off.
 void Conditions::moved_by_nodes(const ConditionPart& part) {
   const auto held = axes(part.entry);
   auto& moved = face(part).section("displacement", context_.source(part.entry, "Type"));
-  NodalValues values{
-      .kind = NodalValues::Kind::in_time, .file = {}, .face = {}, .where = part.entry.where(), .table = {}};
+  NodalValues values{.kind = NodalValues::Kind::in_time, .where = part.entry.where()};
   if (part.time == Dependence::general) {
     const Entry* file = file_in_time(part);
     if (file == nullptr) return;
@@ -63,7 +71,8 @@ void Conditions::moved_by_nodes(const ConditionPart& part) {
   values.quantity = NodalValues::Quantity::displacement;
   values.axes = held;
   nodal_table(part, "displacements", "m", std::move(values), moved.section("over_face", part.entry.where()));
-  if (!held.empty()) moved.add("directions", names_of(held), context_.source(part.entry, "Effective_direction"));
+  if (!held.empty())
+    moved.add("directions", names_of(with_held(part)), context_.source(part.entry, "Effective_direction"));
   if (part.time != Dependence::general) course(part, "", moved.section("waveform", part.entry.where()));
 }
 
@@ -123,9 +132,7 @@ void Conditions::pressure_by_nodes(const ConditionPart& part) {
   NodalValues values{.kind = general ? NodalValues::Kind::in_time : NodalValues::Kind::pressure,
                      .quantity = NodalValues::Quantity::factor,
                      .file = context_.located(*file),
-                     .face = {},
-                     .where = file->where(),
-                     .table = {}};
+                     .where = file->where()};
   if (general) {
     values.scale = -1.0;
     context_.changed(*file,
@@ -162,9 +169,7 @@ void Conditions::traction_by_nodes(const ConditionPart& part, const Entry& file)
   NodalValues values{.kind = NodalValues::Kind::traction,
                      .quantity = NodalValues::Quantity::traction,
                      .file = context_.located(file),
-                     .face = {},
-                     .where = file.where(),
-                     .table = {}};
+                     .where = file.where()};
   if (file.key != "Traction_values_file_path")
     values.kind = NodalValues::Kind::in_time;
   else {
@@ -189,9 +194,7 @@ void Conditions::traction_in_time(const ConditionPart& part) {
   NodalValues values{.kind = NodalValues::Kind::course,
                      .quantity = NodalValues::Quantity::traction,
                      .file = context_.located(*file),
-                     .face = {},
                      .where = file->where(),
-                     .table = {},
                      .ramp = context_.flag(part.entry, "Ramp_function"),
                      .step = context_.number(times, "Time_step_size").value_or(0),
                      .steps = static_cast<std::size_t>(context_.number(times, "Number_of_time_steps").value_or(0))};

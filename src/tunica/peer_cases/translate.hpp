@@ -72,12 +72,12 @@ struct NodalValues {
   Kind kind;
   Quantity quantity = Quantity::velocity;
   bool wall = false;  ///< of a face of the wall?
-  std::filesystem::path file;
-  std::string face, where;  ///< `where`: of the key, as in messages
-  std::string table;        ///< in the folder of the case
-  int first_node = 1;       ///< number of the first node of the mesh in that file
-  bool zero_rim = false;    ///< user, flat, parabolic: zero at nodes that other faces have, too
-  bool unit_flow = false;   ///< the same kinds: scaled so that the integral over the face is one
+  std::filesystem::path file = {};
+  std::string face = {}, where = {};  ///< `where`: of the key, as in messages
+  std::string table = {};             ///< in the folder of the case
+  int first_node = 1;                 ///< number of the first node of the mesh in that file
+  bool zero_rim = false;              ///< user, flat, parabolic: zero at nodes that other faces have, too
+  bool unit_flow = false;             ///< the same kinds: scaled so that the integral over the face is one
   /// Along these axes, each the same; none: the same kinds along the outward normals of the nodes. Of `in_time` the
   /// axes of its components, all when there are none.
   std::vector<int> axes = {};

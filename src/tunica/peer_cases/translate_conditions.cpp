@@ -117,16 +117,26 @@ std::vector<int> Conditions::axes(const Entry& condition) const {
 const Entry* Conditions::held_beside(const Entry& load) const {
   const std::string type = context_.text(load, "Type");
   const FacePart* found = problem_.face(load.label);
-  if (found == nullptr || found->lumen || !(type.starts_with("Neu") || type.starts_with("Trac"))) return nullptr;
+  const bool motion = type.starts_with("Dir");
+  if (found == nullptr || found->lumen || !(type.starts_with("Neu") || type.starts_with("Trac") || motion))
+    return nullptr;
   std::vector<const Entry*> others;
   for (const Entry* other : problem_.main->all("Add_BC"))
     if (other->label == load.label && other != &load) others.push_back(other);
   if (others.size() != 1) return nullptr;
   const Entry& other = *others[0];
-  const bool holds = context_.text(other, "Type").starts_with("Dir") && !axes(other).empty() &&
-                     context_.text(other, "Time_dependence", "Steady") == "Steady" &&
-                     context_.number(other, "Value").value_or(0) == 0;
-  return holds ? &other : nullptr;
+  const auto at_rest = [&](const Entry& c) {
+    return context_.text(c, "Type").starts_with("Dir") && !axes(c).empty() &&
+           context_.text(c, "Time_dependence", "Steady") == "Steady" && context_.number(c, "Value").value_or(0) == 0;
+  };
+  if (!at_rest(other)) return nullptr;
+  if (!motion) return &other;
+  // Of two that hold the face the first one brings the other along.
+  if (axes(load).empty() || (at_rest(load) && load.line > other.line)) return nullptr;
+  const auto along = axes(load), across = axes(other);
+  const bool apart = std::none_of(across.begin(), across.end(),
+                                  [&](int axis) { return std::find(along.begin(), along.end(), axis) != along.end(); });
+  return apart ? &other : nullptr;
 }
 
 void Conditions::refuse_second(const Entry& condition) {
@@ -135,7 +145,7 @@ void Conditions::refuse_second(const Entry& condition) {
       return context_.missing(
           condition,
           fmt::format("a second condition on the face {} beside that of line {}", condition.label, other->line),
-          "keep one of them, or split the face; a load goes with Dir 0 along some axes");
+          "keep one of them, or split the face; a load or a motion goes with Dir 0 along other axes");
 }
 
 std::optional<ConditionPart> Conditions::part_of(const Entry& condition) {
