@@ -132,7 +132,7 @@ const Entry* Conditions::held_beside(const Entry& load) const {
   if (!at_rest(other)) return nullptr;
   if (!motion) return &other;
   // Of two that hold the face the first one brings the other along.
-  if (axes(load).empty() || (at_rest(load) && load.line > other.line)) return nullptr;
+  if (axes(load).empty() || (at_rest(load) && &load > &other)) return nullptr;
   const auto along = axes(load), across = axes(other);
   const bool apart = std::none_of(across.begin(), across.end(),
                                   [&](int axis) { return std::find(along.begin(), along.end(), axis) != along.end(); });

@@ -75,7 +75,7 @@ class ProfileInTime : public ProfileTable {
     out.close();
     profile_.interpolation = VelocityProfile::Interpolation::nearest;
   }
-  double speed(double x, double t) const { return table().value({{x, 0, 0}}, t)[0]; }
+  double speed(double x, double t) const { return table().value(Vec3<double>{{x, 0, 0}}, t)[0]; }
 };
 
 TEST_F(ProfileInTime, IsLinearBetweenTimesAndHoldsItsEnds) {
