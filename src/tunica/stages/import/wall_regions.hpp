@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "tunica/case/mesh_settings.hpp"
+#include "tunica/case/case.hpp"
 #include "tunica/peer_cases/translate.hpp"
 
 namespace tunica::stages {
