@@ -377,6 +377,24 @@ def peer_fsi():
             ("Add_equation", "mesh", [("Poisson_ratio", 0.3), condition("in", Type="Dir", Value="0.0")])]
 
 
+def peer_loads():
+    """A wall with domains in a list, fibres in files, and loads and motions of all kinds."""
+    mesh = [("Domain_file_path", "domains.dat"), ("Fiber_direction_file_path", "f1.vtu"),
+            ("Fiber_direction_file_path", "f2.vtu"), ("Initial_displacements_file_path", "u.vtu")]
+    law = [("Density", 1.2), ("Elasticity_modulus", "1e6"), ("Constitutive_model", "HGO", [
+        ("a4", "1e5"), ("b4", 5), ("a6", "1e5"), ("b6", 5), ("kappa", 0.1)])]
+    return peer_mesh("wall", ["a", "b", "c", "d", "e", "f"], mesh) + [("Add_equation", "struct", [
+        ("Tolerance", "1e-6"), ("Domain", "1", law), ("Domain", "2", law),
+        condition("a", Type="Dir", Value="0.1", Profile="Parabolic"),
+        condition("b", Type="Dir", Time_dependence="General", Temporal_and_spatial_values_file_path="v.dat"),
+        condition("c", Type="Trac", Traction_values_file_path="t.vtp", Traction_multiplier="0.5"),
+        condition("d", Type="Trac", Time_dependence="Unsteady", Temporal_values_file_path="t.dat", Ramp_function="1"),
+        condition("e", Type="Neu", Value="3.0", Profile="User_defined", Spatial_profile_file_path="s.dat",
+                  Impose_flux="1"),
+        condition("e", Type="Dir", Value="0.0", Effective_direction="(1, 0, 0)"),
+        condition("f", Type="Neu", Time_dependence="Spatial", Spatial_values_file_path="p.vtp")])]
+
+
 def as_xml(entries):
     attribute = {"Add_equation": "type", "Domain": "id", "Viscosity": "model", "LS": "type", "Output": "type",
                  "Constitutive_model": "type"}
@@ -404,7 +422,7 @@ def as_inp(entries):
 
 
 def peer_corpus():
-    for name, entries in (("flow", peer_flow()), ("fsi", peer_fsi())):
+    for name, entries in (("flow", peer_flow()), ("fsi", peer_fsi()), ("loads", peer_loads())):
         write("peer/xml/%s.xml" % name, "<?xml version=\"1.0\"?>\n<svMultiPhysicsFile version=\"0.1\">\n" + as_xml(
             [("GeneralSimulationParameters", "", list(GENERAL.items()))] + entries) + "</svMultiPhysicsFile>\n")
         write("peer/inp/%s.inp" % name, "# general\n" + as_inp(list(GENERAL.items()) + entries))

@@ -27,6 +27,16 @@ namespace tunica::bc {
 /// Some of the axes x, y, z.
 using Axes = std::array<bool, 3>;
 
+/// What a load or a motion is at scattered points of its face, at one time or at several, in a CSV file.
+struct OverFace {
+  enum class Interpolation { nearest, linear };
+  std::filesystem::path table;     ///< x, y, z, the values, and t where they vary
+  std::optional<double> period{};  ///< of a table with t [s]; none: its first and last values hold
+  double unit = 1.0;               ///< of the values [SI]
+  double length_unit = 1.0;        ///< of x, y, z [m]
+  Interpolation interpolation = Interpolation::linear;
+};
+
 // --- lumen faces ------------------------------------------------------------------------------------------------
 
 struct NoSlip {
@@ -53,12 +63,14 @@ struct Flow {
 /// Q(t) [m^3/s], positive into the domain. Throws as make_waveform.
 Waveform inflow(const Flow& flow);
 
-/// Traction `vector * course(t)` per current area of a lumen face, per reference area (dead load) of a wall face.
+/// Traction `vector * course(t)` per current area of a lumen face, per reference area (dead load) of a wall face; or
+/// in the place of `vector` that of a table with the columns tx, ty, tz.
 struct Traction {
   Vec3<double> vector{};      ///< Pa
   WaveformInput course{1.0};  ///< dimensionless
   Axes fixed{};               ///< no displacement along these, beside the load; wall faces alone
   bool undeforming = false;   ///< the face moves as a whole, without turning; wall faces alone
+  std::optional<OverFace> over_face{};
   static config::Schema<Traction> schema();
 };
 
@@ -68,7 +80,7 @@ struct Traction {
 /// get what these say: the flow through the face is that of their interpolation. Exactly one of `velocity`, `speed` and
 /// `table` is given.
 struct VelocityProfile {
-  enum class Interpolation { nearest, linear };
+  using Interpolation = OverFace::Interpolation;
   std::vector<std::string> velocity{};         ///< formulas (formula.hpp) of the three components
   std::optional<std::string> speed{};          ///< formula of the speed into the domain, along the mean normal
   std::optional<std::filesystem::path> table;  ///< CSV with the columns x, y, z, vx, vy, vz, and t where it varies
@@ -76,6 +88,8 @@ struct VelocityProfile {
   double unit = 1.0, length_unit = 1.0;        ///< of velocities [m/s] and coordinates [m], in formulas and table
   Interpolation interpolation = Interpolation::linear;
   WaveformInput course{1.0};  ///< dimensionless
+  /// The table, which is given.
+  OverFace over_face() const { return {table.value(), period, unit, length_unit, interpolation}; }
   static config::Schema<VelocityProfile> schema();
 };
 
@@ -87,13 +101,15 @@ struct Symmetry {
   static config::Schema<Symmetry> schema();
 };
 
-/// Traction -p n. On a wall face `follower` turns and stretches with the deformed face; a dead one keeps the normal and
-/// area of the reference. On a lumen face n is the current normal and follower has no meaning.
+/// Traction -p n, of a table with the column `factor` -factor p n. On a wall face `follower` turns and stretches with
+/// the deformed face; a dead one keeps the normal and area of the reference. On a lumen face n is the current normal
+/// and follower has no meaning.
 struct Pressure {
   WaveformInput pressure;  ///< Pa
   bool follower = true;
   Axes fixed{};              ///< no displacement along these, beside the load; wall faces alone
   bool undeforming = false;  ///< the face moves as a whole, without turning; wall faces alone
+  std::optional<OverFace> over_face{};
   static config::Schema<Pressure> schema();
 };
 
@@ -113,12 +129,14 @@ struct Fixed {
   static config::Schema<Fixed> schema();
 };
 
-/// u = value * course(t) at all nodes of a wall face, along `directions`; the others are free. At t_{n+1}, as
-/// prescribed velocities; statics multiplies it by its load factor.
+/// u = value * course(t) at all nodes of a wall face, along `directions`; the others are free. In the place of `value`
+/// that of a table with the columns ux, uy, uz. At t_{n+1}, as prescribed velocities; statics multiplies it by its load
+/// factor.
 struct Displacement {
   Vec3<double> value{};       ///< m
   WaveformInput course{1.0};  ///< dimensionless
   Axes directions{true, true, true};
+  std::optional<OverFace> over_face{};
   static config::Schema<Displacement> schema();
 };
 

@@ -169,6 +169,27 @@ Schema<SupportValue> support_value_schema(const config::Dimension& due, const co
       .shorthand("value");
 }
 
+Schema<OverFace> over_face_schema(const config::Dimension& due, const char* columns, const char* unit) {
+  Schema<OverFace> schema("over_face", "Values at points of the face.");
+  schema
+      .file("table", &OverFace::table,
+            fmt::format("CSV file with the columns x, y, z, {}, a line for each point; with a column t (in s) as many "
+                        "times, between which the values are linear, each with the same points in the same order",
+                        columns))
+      .quantity("period", &OverFace::period, dimension::time, above(0),
+                "Of a table with a column t: it repeats itself; when left out its first and last values hold");
+  if (due == dimension::none)
+    schema.number("unit", &OverFace::unit, above(0), unit).by_default();
+  else
+    schema.unit("unit", &OverFace::unit, due, unit);
+  return schema.unit("length_unit", &OverFace::length_unit, dimension::length, "Unit of x, y and z")
+      .choice("interpolation", &OverFace::interpolation,
+              {{"nearest", OverFace::Interpolation::nearest}, {"linear", OverFace::Interpolation::linear}},
+              "The nearest point, or a linear function fitted to the nearest ones, which weigh the more the closer "
+              "they are")
+      .by_default();
+}
+
 constexpr const char *fixed_beside_load = "Of a wall face: axes along which it does not move, under the load",
                      *moves_as_a_whole =
                          "Of a wall face: it moves as a whole under the load and does not turn, like a "
@@ -201,9 +222,15 @@ Schema<Flow> Flow::schema() {
 }
 
 Schema<Traction> Traction::schema() {
-  return Schema<Traction>("traction", "Force per area with a fixed direction.")
+  Schema<Traction> size("traction_size", "The same on the whole face, or at points of it.");
+  size.one_of()
       .quantities("value", &Traction::vector, dimension::pressure, anything(), "Traction vector x, y, z")
       .plausible("-400 mmHg", "400 mmHg")
+      .section("over_face", &Traction::over_face,
+               over_face_schema(dimension::pressure, "tx, ty, tz", "Unit of the traction"), "Tractions at points");
+  return Schema<Traction>("traction", "Force per area with a fixed direction.")
+      .include(
+          [](Traction & t) -> auto& { return t; }, size)
       .section("waveform", &Traction::course, waveform_schema(dimension::none),
                "Factor over time; constant when left out")
       .optional()
@@ -223,6 +250,8 @@ Schema<Pressure> Pressure::schema() {
       .by_default()
       .flag("undeforming", &Pressure::undeforming, moves_as_a_whole)
       .by_default()
+      .section("over_face", &Pressure::over_face, over_face_schema(dimension::none, "factor", "Factor of the factors"),
+               "What the pressure is multiplied by at points of the face")
       .shorthand("value");
 }
 
@@ -270,8 +299,15 @@ Schema<Fixed> Fixed::schema() {
 }
 
 Schema<Displacement> Displacement::schema() {
-  return Schema<Displacement>("displacement", "A wall face that is moved: displacement over time.")
+  Schema<Displacement> size("displacement_size", "The same on the whole face, or at points of it.");
+  size.one_of()
       .quantities("value", &Displacement::value, dimension::length, anything(), "Displacement vector x, y, z")
+      .section("over_face", &Displacement::over_face,
+               over_face_schema(dimension::length, "ux, uy, uz", "Unit of the displacement"),
+               "Displacements at points");
+  return Schema<Displacement>("displacement", "A wall face that is moved: displacement over time.")
+      .include(
+          [](Displacement & d) -> auto& { return d; }, size)
       .section("waveform", &Displacement::course, waveform_schema(dimension::none),
                "Factor over time; constant when left out")
       .optional()

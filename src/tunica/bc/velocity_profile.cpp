@@ -38,30 +38,33 @@ std::function<Vec3<double>(const Vec3<double>&, double)> velocity_by_formula(con
   };
 }
 
-PointTable::PointTable(const VelocityProfile& profile)
-    : file_(profile.table.value().string()), interpolation_(profile.interpolation), period_(profile.period) {
-  const auto table = files::read_csv(*profile.table, "give a table with the columns x, y, z, vx, vy, vz");
-  const char* names[] = {"x", "y", "z", "vx", "vy", "vz"};
-  const std::vector<double>* columns[6];
-  for (int c = 0; c < 6; ++c) columns[c] = &table.column(names[c]);
+PointTable::PointTable(const OverFace& source, const PointColumns& columns_of_values)
+    : file_(source.table.string()), interpolation_(source.interpolation), period_(source.period) {
+  std::vector<const char*> names{"x", "y", "z"};
+  names.insert(names.end(), columns_of_values.begin(), columns_of_values.end());
+  std::string listed;
+  for (const char* name : names) listed += (listed.empty() ? "" : ", ") + std::string(name);
+  const auto table = files::read_csv(source.table, "give a table with the columns " + listed);
+  std::vector<const std::vector<double>*> columns;
+  for (const char* name : names) columns.push_back(&table.column(name));
   if (columns[0]->empty()) throw InputError(file_, "has no line of numbers", "give a line for each point");
   const bool varies = std::find(table.headers.begin(), table.headers.end(), "t") != table.headers.end();
   const std::vector<double>* t = varies ? &table.column("t") : nullptr;
   Vec3<double> low{}, high{};
   for (std::size_t k = 0; k < columns[0]->size(); ++k) {
     Vec3<double> x{};
-    auto& v = velocities_.emplace_back();
+    auto& v = values_.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) {
       const int i = static_cast<int>(c);
-      x[i] = profile.length_unit * (*columns[c])[k];
-      v[i] = profile.unit * (*columns[c + 3])[k];
+      x[i] = source.length_unit * (*columns[c])[k];
+      if (c + 3 < columns.size()) v[i] = source.unit * (*columns[c + 3])[k];
       low[i] = k == 0 ? x[i] : std::min(low[i], x[i]);
       high[i] = k == 0 ? x[i] : std::max(high[i], x[i]);
     }
     add(x, t != nullptr ? (*t)[k] : 0.0);
   }
   extent_ = norm(high - low);
-  if (velocities_.size() != times_.size() * points_.size())
+  if (values_.size() != times_.size() * points_.size())
     throw InputError(file_, fmt::format("has fewer points at the time {:.9g} s than at the first one", times_.back()),
                      "give the same points in the same order at every time");
   if (period_ && (steady() || times_.front() < 0 || times_.back() > *period_ * (1 + 1e-9)))
@@ -72,7 +75,7 @@ PointTable::PointTable(const VelocityProfile& profile)
 /// Takes the next line: a new time, or the next point of the present one.
 void PointTable::add(const Vec3<double>& x, double t) {
   if (times_.empty() || t > times_.back()) {
-    if (times_.size() > 1 && (velocities_.size() - 1) % points_.size() != 0)
+    if (times_.size() > 1 && (values_.size() - 1) % points_.size() != 0)
       throw InputError(file_, fmt::format("has another number of points at the time {:.9g} s", times_.back()),
                        "give the same points in the same order at every time");
     times_.push_back(t);
@@ -84,24 +87,39 @@ void PointTable::add(const Vec3<double>& x, double t) {
     points_.push_back(x);
     return;
   }
-  const std::size_t k = velocities_.size() - 1 - (times_.size() - 1) * points_.size();
+  const std::size_t k = values_.size() - 1 - (times_.size() - 1) * points_.size();
   if (k >= points_.size() || norm(x - points_[k]) > 1e-9 * norm(points_[k]))
     throw InputError(file_, fmt::format("has other points at the time {:.9g} s than at the first one", t),
                      "give the same points in the same order at every time");
 }
 
-Vec3<double> PointTable::velocity(const Vec3<double>& place, double t) const {
+PointTable::Moment PointTable::moment(double t) const {
   if (period_) t -= *period_ * std::floor(t / *period_);
   const auto after = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin());
   // Between the last time of a period and the first of the next one.
   const bool wraps = period_ && (after == 0 || after == times_.size());
-  if (!wraps && after == 0) return at(place, 0, 0, 0.0);
-  if (!wraps && after == times_.size()) return at(place, after - 1, after - 1, 0.0);
+  if (!wraps && after == 0) return {0, 0, 0.0};
+  if (!wraps && after == times_.size()) return {after - 1, after - 1, 0.0};
   const std::size_t from = after == 0 ? times_.size() - 1 : after - 1, to = wraps ? 0 : after;
   const double begin = times_[from] - (wraps && after == 0 ? *period_ : 0.0),
                end = times_[to] + (wraps && after != 0 ? *period_ : 0.0);
-  const double share = end > begin ? (t - begin) / (end - begin) : 0.0;
-  return at(place, from, to, share);
+  return {from, to, end > begin ? (t - begin) / (end - begin) : 0.0};
+}
+
+Vec3<double> PointTable::value(const Vec3<double>& place, double t) const {
+  const Moment m = moment(t);
+  return at(place, m.from, m.to, m.share);
+}
+
+std::vector<Vec3<double>> PointTable::history(const Vec3<double>& place) const {
+  std::vector<Vec3<double>> values;
+  for (std::size_t k = 0; k < times_.size(); ++k) values.push_back(at(place, k, k, 0.0));
+  return values;
+}
+
+Vec3<double> PointTable::value(const std::vector<Vec3<double>>& history, double t) const {
+  const Moment m = moment(t);
+  return (1 - m.share) * history[m.from] + m.share * history[m.to];
 }
 
 std::vector<std::size_t> PointTable::nearest(const Vec3<double>& place) const {
@@ -119,7 +137,7 @@ std::vector<std::size_t> PointTable::nearest(const Vec3<double>& place) const {
 
 Vec3<double> PointTable::at(const Vec3<double>& place, std::size_t from, std::size_t to, double share) const {
   const auto value = [&](std::size_t k) {
-    const auto &v0 = velocities_[from * points_.size() + k], &v1 = velocities_[to * points_.size() + k];
+    const auto &v0 = values_[from * points_.size() + k], &v1 = values_[to * points_.size() + k];
     return (1 - share) * v0 + share * v1;
   };
   const auto near = nearest(place);
@@ -130,7 +148,7 @@ Vec3<double> PointTable::at(const Vec3<double>& place, std::size_t from, std::si
                                  "points are within {:.3g} m",
                                  place[0], place[1], place[2], closest, extent_),
                      "check `length_unit` and the coordinates of the table");
-  if (interpolation_ == VelocityProfile::Interpolation::nearest || near.size() < 3) return value(near[0]);
+  if (interpolation_ == OverFace::Interpolation::nearest || near.size() < 3) return value(near[0]);
   // Weighted means first: what is left to fit is a slope, from three by three equations.
   const double radius = norm(points_[near.back()] - place), least = 1e-12 * radius * radius;
   double weights = 0;

@@ -181,14 +181,23 @@ std::vector<Problem> check_waveforms(const Case& c) {
     const auto check = [&](const bc::Waveform& course) { check_period(c, where, course, found); };
     try {
       if (const auto* flow = std::get_if<bc::Flow>(&condition)) check(bc::inflow(*flow));
-      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) check(bc::make_waveform(pressure->pressure));
+      if (const auto* pressure = std::get_if<bc::Pressure>(&condition)) {
+        check(bc::make_waveform(pressure->pressure));
+        if (pressure->over_face) const bc::PointTable table(*pressure->over_face, bc::factor_column);
+      }
       if (const auto* velocity = std::get_if<bc::Velocity>(&condition)) check(bc::make_waveform(velocity->course));
       if (const auto* profile = std::get_if<bc::VelocityProfile>(&condition)) {
         check(bc::make_waveform(profile->course));
-        if (profile->table) const bc::PointTable table(*profile);
+        if (profile->table) const bc::PointTable table(profile->over_face(), bc::velocity_columns);
       }
-      if (const auto* traction = std::get_if<bc::Traction>(&condition)) check(bc::make_waveform(traction->course));
-      if (const auto* moved = std::get_if<bc::Displacement>(&condition)) check(bc::make_waveform(moved->course));
+      if (const auto* traction = std::get_if<bc::Traction>(&condition)) {
+        check(bc::make_waveform(traction->course));
+        if (traction->over_face) const bc::PointTable table(*traction->over_face, bc::traction_columns);
+      }
+      if (const auto* moved = std::get_if<bc::Displacement>(&condition)) {
+        check(bc::make_waveform(moved->course));
+        if (moved->over_face) const bc::PointTable table(*moved->over_face, bc::displacement_columns);
+      }
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) found.push_back({where + ": " + p.where, p.what, p.remedy});
     }

@@ -82,6 +82,15 @@ struct Boundaries::Builder {
     return parallel::agree(mesh.comm, [&] { return bc::make_waveform(input); });
   }
 
+  /// None where there is no table.
+  std::optional<NodalHistories> histories(std::size_t face, const std::optional<bc::OverFace>& source,
+                                          const bc::PointColumns& columns) const {
+    if (!source) return std::nullopt;
+    return parallel::agree(mesh.comm, [&] {
+      return std::optional<NodalHistories>(NodalHistories(mesh, mesh.faces[face], bc::PointTable(*source, columns)));
+    });
+  }
+
   template <class Visit>
   void for_each_node(const distributed::Face& face, Visit visit) const {
     for (const auto& triangle : face.triangles)
@@ -185,6 +194,7 @@ struct Boundaries::Builder {
     if (is_wall(index))
       load.kind = c.follower ? SurfaceLoad::Kind::follower_pressure : SurfaceLoad::Kind::dead_pressure;
     load.course = waveform(c.pressure);
+    load.over_face = histories(index, c.over_face, bc::factor_column);
     b.loads_.bind(load);
     hold_along(index, c.fixed);
   }
@@ -193,6 +203,7 @@ struct Boundaries::Builder {
                      .kind = is_wall(index) ? SurfaceLoad::Kind::dead_traction : SurfaceLoad::Kind::lumen_traction};
     load.vector = c.vector;
     load.course = waveform(c.course);
+    load.over_face = histories(index, c.over_face, bc::traction_columns);
     b.loads_.bind(load);
     hold_along(index, c.fixed);
   }
@@ -279,12 +290,13 @@ struct Boundaries::Builder {
     const auto& face = mesh.faces[index];
     const auto course = waveform(c.course);
     if (c.table) {
-      const auto table = parallel::agree(mesh.comm, [&] { return bc::PointTable(c); });
+      const auto table =
+          parallel::agree(mesh.comm, [&] { return bc::PointTable(c.over_face(), bc::velocity_columns); });
       if (table.steady())
-        prescribe(face, course_of(course), [&](std::int32_t node) { return table.velocity(mesh.points[node]); });
+        prescribe(face, course_of(course), [&](std::int32_t node) { return table.value(mesh.points[node]); });
       else
         prescribe(face,
-                  [course, table](const Vec3<double>& x, double t) { return course.value(t) * table.velocity(x, t); });
+                  [course, table](const Vec3<double>& x, double t) { return course.value(t) * table.value(x, t); });
       return;
     }
     prescribe(face, [course, velocity = bc::velocity_by_formula(c, mean_normal(mesh, face))](

@@ -50,7 +50,11 @@ MovedFaces::MovedFaces(const distributed::DistributedMesh& mesh,
   std::map<std::string, double> number;
   for (const auto& [name, condition] : conditions)
     if (const auto* moved = std::get_if<bc::Displacement>(&condition)) {
-      courses_.push_back(parallel::agree(mesh.comm, [&] { return bc::make_waveform(moved->course); }));
+      courses_.push_back(parallel::agree(mesh.comm, [&] {
+        FaceCourse course{bc::make_waveform(moved->course), {}};
+        if (moved->over_face) course.table.emplace(*moved->over_face, bc::displacement_columns);
+        return course;
+      }));
       number.emplace(name, static_cast<double>(courses_.size()));
     }
   if (courses_.empty()) return;
@@ -67,13 +71,32 @@ MovedFaces::MovedFaces(const distributed::DistributedMesh& mesh,
     for (int axis = 0; axis < 3; ++axis)
       if (const Mark mark = marks.at(node, axis); mark.face > 0)
         motions_.push_back({node, axis, mark.per_unit, static_cast<std::size_t>(mark.face) - 1});
+  parallel::agree(mesh.comm, [&] { look_up_histories(mesh); });
+}
+
+void MovedFaces::look_up_histories(const distributed::DistributedMesh& mesh) {
+  std::map<std::pair<std::int32_t, std::size_t>, std::int32_t> found;
+  for (auto& motion : motions_) {
+    const auto& table = courses_[motion.course].table;
+    if (!table) continue;
+    const auto [at, is_new] =
+        found.emplace(std::pair(motion.node, motion.course), static_cast<std::int32_t>(histories_.size()));
+    if (is_new) histories_.push_back(table->history(mesh.points[motion.node]));
+    motion.history = at->second;
+  }
 }
 
 void MovedFaces::at(double t, const std::function<void(std::int32_t, int, double)>& visit) const {
   std::vector<double> values;
   values.reserve(courses_.size());
-  for (const auto& course : courses_) values.push_back(course.value(t));
-  for (const auto& motion : motions_) visit(motion.node, motion.axis, values[motion.course] * motion.per_unit);
+  for (const auto& course : courses_) values.push_back(course.course.value(t));
+  for (const auto& motion : motions_) {
+    const double per_unit = motion.history < 0
+                                ? motion.per_unit
+                                : courses_[motion.course].table->value(
+                                      histories_[static_cast<std::size_t>(motion.history)], t)[motion.axis];
+    visit(motion.node, motion.axis, values[motion.course] * per_unit);
+  }
 }
 
 }  // namespace tunica::coupling

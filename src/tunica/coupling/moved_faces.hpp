@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tunica/bc/conditions.hpp"
+#include "tunica/bc/velocity_profile.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 
 namespace tunica::coupling {
@@ -28,11 +30,19 @@ class MovedFaces {
   struct Motion {
     std::int32_t node;
     int axis;
-    double per_unit;  ///< m
+    double per_unit;  ///< m; not where `history` is given
     std::size_t course;
+    std::int32_t history = -1;  ///< in histories_
   };
-  std::vector<bc::Waveform> courses_;
+  struct FaceCourse {
+    bc::Waveform course;
+    std::optional<bc::PointTable> table;
+  };
+  void look_up_histories(const distributed::DistributedMesh& mesh);
+
+  std::vector<FaceCourse> courses_;
   std::vector<Motion> motions_;
+  std::vector<std::vector<Vec3<double>>> histories_;  ///< of nodes of faces with a table [m]
 };
 
 }  // namespace tunica::coupling

@@ -303,6 +303,22 @@ int Problem::move_mesh(const State& old_state, State& next, const TimeScheme& sc
   return iterations;
 }
 
+void Problem::settle_mesh(State& state) {
+  if (!mesh_motion_) return;
+  double of_wall = 0, of_mesh = 0;
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i) {
+    double& largest = follows_wall_[i] ? of_wall : of_mesh;
+    largest = std::max(largest, norm(vector_at(state.displacement.data(), i)));
+  }
+  of_wall = parallel::global_max(mesh_.comm, of_wall);
+  if (of_wall == 0 || parallel::global_max(mesh_.comm, of_mesh) > 0) return;
+  synchronise_twins(state);
+  mesh_motion_->solve(state.displacement, input_.newton.mesh_tolerance);
+  for (const auto& edge : edges_)
+    if (is_lumen(edge) && !follows_wall_[edge.node]) set_to_mean(state.displacement, edge);
+  mesh_.halo.update(state.displacement, 4);
+}
+
 void Problem::add_lumen(const Instant& instant, std::span<double> residual, float* blocks) const {
   const ElementLoops loops = element_loops(isa_);
   for (const auto& group : lumen_groups_) {

@@ -75,6 +75,10 @@ class Problem {
   /// At rest, undeformed.
   State initial_state() const;
 
+  /// Moves the lumen mesh of `state`, of which no node is displaced yet, to where its wall is displaced to; leaves
+  /// other states as they are. Collective.
+  void settle_mesh(State& state);
+
   /// Takes `state` from t_n to t_n + dt, or leaves it untouched and says why not. Collective.
   StepReport advance(State& state, double dt);
 

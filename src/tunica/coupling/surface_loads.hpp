@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tunica/assembly/block_matrix.hpp"
+#include "tunica/bc/velocity_profile.hpp"
 #include "tunica/bc/waveform.hpp"
 #include "tunica/coupling/loop_views.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
@@ -25,6 +26,24 @@ struct LoadCoefficients {
 /// A vector as a function of the reference position [m] and the time [s]. Called on every rank that holds the node.
 using VectorField = std::function<Vec3<double>(const Vec3<double>&, double)>;
 
+/// Values of a table at the nodes of a face.
+class NodalHistories {
+ public:
+  /// Throws InputError for a node that is far from all points of the table.
+  NodalHistories(const distributed::DistributedMesh& mesh, const distributed::Face& face, bc::PointTable table);
+
+  /// Values at time t [s], for `at`.
+  std::vector<Vec3<double>> values(double t) const;
+  const Vec3<double>& at(const std::vector<Vec3<double>>& values, std::int32_t node) const {
+    return values[static_cast<std::size_t>(slot_[static_cast<std::size_t>(node)])];
+  }
+
+ private:
+  bc::PointTable table_;
+  std::vector<std::int32_t> slot_;  ///< [local node] in histories_; -1 beside the face
+  std::vector<std::vector<Vec3<double>>> histories_;
+};
+
 struct SurfaceLoad {
   std::size_t face;
   enum class Kind { lumen_pressure, lumen_traction, follower_pressure, dead_pressure, dead_traction, support } kind;
@@ -32,6 +51,8 @@ struct SurfaceLoad {
   Vec3<double> vector{};
   std::vector<wall::TissueSupport<double>> support{};  ///< of each triangle: means of its nodes
   std::vector<double> pressures{};                     ///< follower pressure of each triangle; empty: `course`
+  /// Tractions in the place of `vector`, factors of the pressure in their first components; interpolated between nodes.
+  std::optional<NodalHistories> over_face{};
 };
 
 /// Traction [Pa] on the current lumen face, interpolated between the nodes like the velocity.
@@ -62,6 +83,9 @@ class SurfaceLoads {
   void add_lumen(const SurfaceLoad& load, double value, const Sums& sums) const;
   void add_quadratic_lumen(const SurfaceLoad& load, double value, const Sums& sums) const;
   void add_traction(const TractionField& load, double t, double factor, const Sums& sums) const;
+  void add_over_lumen(const SurfaceLoad& load, double value, double t, const Sums& sums) const;
+  void add_over_wall(const SurfaceLoad& load, double value, double t, const Sums& sums) const;
+  void add_over_quadratic_wall(const SurfaceLoad& load, double value, double t, const Sums& sums) const;
   void add_backflow(std::size_t face, const Sums& sums) const;
   void add_wall(const SurfaceLoad& load, double value, double factor, const Sums& sums) const;
   void add_quadratic_wall(const SurfaceLoad& load, double value, double factor, const Sums& sums) const;

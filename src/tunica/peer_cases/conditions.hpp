@@ -20,8 +20,9 @@ struct ConditionPart {
   const FacePart& face;
   ConditionType type;
   Dependence time;
-  std::vector<double> value;    ///< of the key Value; 0 where there is none
-  const Entry* held = nullptr;  ///< another Add_BC of the same wall face: Dir 0 along some axes, beside this load
+  std::vector<double> value;  ///< of the key Value; 0 where there is none
+  /// Another Add_BC of the same wall face: Dir 0 along some axes, beside this load or this motion along other axes.
+  const Entry* held = nullptr;
 
   double scalar() const { return value.empty() ? 0.0 : value[0]; }
   bool vanishes() const {
@@ -40,8 +41,8 @@ class Conditions {
   void translate(const Entry& condition);
   std::optional<ConditionPart> part_of(const Entry& condition);
   void translate(const ConditionPart& part);
-  /// The condition beside the load of a wall face that holds the face along some axes; none where there is another
-  /// one, or more.
+  /// The condition beside the load or the motion of a wall face that holds the face along some other axes; none where
+  /// there is another one, or more.
   const Entry* held_beside(const Entry& load) const;
   void refuse_second(const Entry& condition);
   void check_mesh_equation();
@@ -51,14 +52,28 @@ class Conditions {
   void lumen_flow(const ConditionPart& part);
   void lumen_velocity_in_time(const ConditionPart& part);
   void lumen_velocity_of_shape(const ConditionPart& part);
-  CaseKey& nodal_table(const ConditionPart& part, NodalVelocities velocities);
+  /// Notes values that are to be written, into the file `name` beside the case; `table` says where they are.
+  void nodal_table(const ConditionPart& part, const std::string& name, const char* unit, NodalValues values,
+                   CaseKey& table);
+  /// The text file of a condition in time and space; none where that has been reported.
+  const Entry* file_in_time(const ConditionPart& part);
+  /// The profile that the peer multiplies the value of a condition by.
+  NodalValues shape_of(const ConditionPart& part, bool zero_rim);
+  /// Has a load a profile that is not 1 everywhere?
+  bool has_shape(const ConditionPart& part) const;
   void lumen_pressure(const ConditionPart& part);
   void outlet(const ConditionPart& part);
   void zerod_outlet(const ConditionPart& part);
   void wall_motion(const ConditionPart& part);
+  std::vector<int> with_held(const ConditionPart& part) const;
   void wall_pressure(const ConditionPart& part);
+  void moved_by_nodes(const ConditionPart& part);
+  /// Of both: how the load goes with the face, and what holds it beside.
+  void lay_on_wall(const ConditionPart& part, CaseKey& load);
   void pressure_by_nodes(const ConditionPart& part);
   void traction(const ConditionPart& part);
+  void traction_by_nodes(const ConditionPart& part, const Entry& file);
+  void traction_in_time(const ConditionPart& part);
   void support(const ConditionPart& part);
 
   CaseKey& face(const ConditionPart& part) { return boundary_.section(part.entry.label, part.entry.where()); }
@@ -73,7 +88,7 @@ class Conditions {
   bool profile_is(const ConditionPart& part, const char* wanted) const {
     return context_.text(part.entry, "Profile", "Flat") == wanted;
   }
-  /// Normal loads are the same on the whole face.
+  /// Loads of supports and tractions are the same on the whole face.
   void check_load(const ConditionPart& part);
 
   Context& context_;

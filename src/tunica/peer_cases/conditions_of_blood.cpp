@@ -27,11 +27,10 @@ void Conditions::lumen_velocity(const ConditionPart& part) {
   if (const Entry* integral = part.entry.find("Impose_on_state_variable_integral");
       integral != nullptr && context_.flag(part.entry, integral->key))
     return context_.missing(*integral, "blood whose displacement is given", "give its velocity");
-  if (profile_is(part, "User_defined")) return lumen_velocity_of_shape(part);
-  if (context_.flag(part.entry, "Impose_flux")) return lumen_flow(part);
-  if (!profile_is(part, "Flat"))
-    return context_.missing(*part.entry.find("Profile"), "a parabolic profile that is given by its largest velocity",
-                            "give the flow instead: Impose_flux true");
+  const bool flux = context_.flag(part.entry, "Impose_flux");
+  if (profile_is(part, "User_defined") || (profile_is(part, "Parabolic") && !flux))
+    return lumen_velocity_of_shape(part);
+  if (flux) return lumen_flow(part);
   auto& profile = face(part).section("profile", context_.source(part.entry, "Profile", "Flat by default"));
   const bool unsteady = part.time == Dependence::unsteady;
   const double into = unsteady ? -1.0 : -part.scalar();
@@ -44,52 +43,72 @@ void Conditions::lumen_velocity(const ConditionPart& part) {
   context_.changed(part.entry, "the velocity is along the mean normal of the face, not along that of every node");
 }
 
-// Velocities node by node become a table of points in a file beside the case.
-CaseKey& Conditions::nodal_table(const ConditionPart& part, NodalVelocities velocities) {
-  velocities.face = part.entry.label;
-  velocities.table = part.entry.label + "_velocities.csv";
-  auto& profile = face(part).section("profile", part.entry.where());
-  profile.add("table", yaml_text(velocities.table), velocities.where);
-  profile.add("unit", "m/s", "");
-  profile.add("length_unit", "m", "");
-  profile.add("interpolation", "nearest", "the points are the nodes");
-  if (const auto period = context_.findings.periods.find(velocities.table); period != context_.findings.periods.end())
-    profile.add("period", with_unit(period->second, "s"),
-                fmt::format("the last time, as {} repeats it", context_.peer()));
-  context_.remarks.changed.push_back(velocities.where + ": the velocities are written to the file " + velocities.table);
-  context_.velocities.push_back(std::move(velocities));
-  return profile;
+// Values node by node become a table of points in a file beside the case.
+void Conditions::nodal_table(const ConditionPart& part, const std::string& name, const char* unit, NodalValues values,
+                             CaseKey& table) {
+  values.face = part.entry.label;
+  values.table = part.entry.label + "_" + name + ".csv";
+  values.wall = !part.face.lumen;
+  table.add("table", yaml_text(values.table), values.where);
+  if (*unit != '\0') table.add("unit", unit, "");
+  table.add("length_unit", "m", "");
+  table.add("interpolation", "nearest", "the points are the nodes");
+  if (const auto period = context_.findings.periods.find(values.table); period != context_.findings.periods.end())
+    table.add("period", with_unit(period->second, "s"),
+              fmt::format("the last time, as {} repeats it", context_.peer()));
+  context_.remarks.changed.push_back(values.where + ": the values at the nodes are written to the file " +
+                                     values.table);
+  context_.nodal.push_back(std::move(values));
 }
 
-void Conditions::lumen_velocity_in_time(const ConditionPart& part) {
+const Entry* Conditions::file_in_time(const ConditionPart& part) {
   const Entry *bct = part.entry.find("Bct_file_path"), *text = part.entry.find("Temporal_and_spatial_values_file_path");
   const Entry* file = bct != nullptr ? bct : text;
   if (file == nullptr)
-    return context_.refuse(part.entry, "is General without a file",
-                           "give Bct_file_path or Temporal_and_spatial_values_file_path");
+    context_.refuse(part.entry, "is General without a file",
+                    "give Bct_file_path or Temporal_and_spatial_values_file_path");
+  else
+    context_.path(*file);  // warns when it is not there
+  return file;
+}
+
+void Conditions::lumen_velocity_in_time(const ConditionPart& part) {
   if (!axes(part.entry).empty())
     return context_.missing(*part.entry.find("Effective_direction"),
                             "a velocity that is given along some axes and free along others", "give all directions");
-  context_.path(*file);  // warns when it is not there
-  nodal_table(part, {.kind = bct != nullptr ? NodalVelocities::Kind::bct : NodalVelocities::Kind::in_time,
-                     .file = context_.located(*file),
-                     .face = {},
-                     .where = file->where(),
-                     .table = {}});
+  const Entry* file = file_in_time(part);
+  if (file == nullptr) return;
+  const auto kind = file->key == "Bct_file_path" ? NodalValues::Kind::bct : NodalValues::Kind::in_time;
+  nodal_table(part, "velocities", "m/s", {.kind = kind, .file = context_.located(*file), .where = file->where()},
+              face(part).section("profile", part.entry.where()));
+}
+
+NodalValues Conditions::shape_of(const ConditionPart& part, bool zero_rim) {
+  NodalValues shape{.kind = NodalValues::Kind::flat,
+                    .where = part.entry.where(),
+                    .zero_rim = context_.flag(part.entry, "Zero_out_perimeter", zero_rim),
+                    .unit_flow = context_.flag(part.entry, "Impose_flux")};
+  if (profile_is(part, "Parabolic")) shape.kind = NodalValues::Kind::parabolic;
+  if (profile_is(part, "User_defined")) {
+    const Entry& file = *part.entry.find("Spatial_profile_file_path");
+    context_.path(file);  // warns when it is not there
+    shape.kind = NodalValues::Kind::user;
+    shape.file = context_.located(file);
+    shape.where = file.where();
+    // solver.xml counts nodes from 0 here, .inp files from 1.
+    shape.first_node = context_.file.dialect == Dialect::xml ? 0 : 1;
+  }
+  return shape;
+}
+
+bool Conditions::has_shape(const ConditionPart& part) const {
+  return !part.vanishes() && (!profile_is(part, "Flat") || context_.flag(part.entry, "Impose_flux") ||
+                              context_.flag(part.entry, "Zero_out_perimeter"));
 }
 
 void Conditions::lumen_velocity_of_shape(const ConditionPart& part) {
-  const Entry& file = *part.entry.find("Spatial_profile_file_path");
-  context_.path(file);  // warns when it is not there
-  // solver.xml counts nodes from 0 here, .inp files from 1.
-  auto& profile = nodal_table(part, {.kind = NodalVelocities::Kind::shape,
-                                     .file = context_.located(file),
-                                     .face = {},
-                                     .where = file.where(),
-                                     .table = {},
-                                     .first_node = context_.file.dialect == Dialect::xml ? 0 : 1,
-                                     .zero_rim = context_.flag(part.entry, "Zero_out_perimeter", true),
-                                     .unit_flow = context_.flag(part.entry, "Impose_flux")});
+  auto& profile = face(part).section("profile", part.entry.where());
+  nodal_table(part, "velocities", "m/s", shape_of(part, true), profile);
   course(part, "", profile.section("waveform", part.entry.where()));
 }
 
@@ -109,20 +128,26 @@ void Conditions::lumen_flow(const ConditionPart& part) {
 
 void Conditions::check_load(const ConditionPart& part) {
   if (!profile_is(part, "Flat"))
-    context_.missing(*part.entry.find("Profile"), "a load with a profile over the face", "remove Profile");
+    context_.missing(*part.entry.find("Profile"), "a support or a traction with a profile over the face",
+                     "remove Profile");
   if (context_.flag(part.entry, "Impose_flux"))
-    context_.missing(*part.entry.find("Impose_flux"), "a load given by its force", "give the pressure");
+    context_.missing(*part.entry.find("Impose_flux"), "a support or a traction given by its force",
+                     "give the load by its area");
   if (const Entry* rim = part.entry.find("Zero_out_perimeter");
       rim != nullptr && context_.flag(part.entry, rim->key) && !part.vanishes())
-    context_.missing(*rim, "a load that vanishes on the rim of its face", "remove the key");
+    context_.missing(*rim, "a support or a traction that vanishes on the rim of its face", "remove the key");
 }
 
 void Conditions::lumen_pressure(const ConditionPart& part) {
-  check_load(part);
   if (const Entry* undeforming = part.entry.find("Undeforming_neu_face");
       undeforming != nullptr && context_.flag(part.entry, undeforming->key))
     return context_.refuse(*undeforming, "is for walls", "remove it");
-  course(part, context_.units.pressure, face(part).section("pressure", part.entry.find("Type")->where()));
+  auto& pressure = face(part).section("pressure", part.entry.find("Type")->where());
+  course(part, context_.units.pressure, pressure);
+  if (!has_shape(part)) return;
+  auto shape = shape_of(part, false);
+  shape.quantity = NodalValues::Quantity::factor;
+  nodal_table(part, "factors", "", std::move(shape), pressure.section("over_face", part.entry.where()));
 }
 
 void Conditions::outlet(const ConditionPart& part) {

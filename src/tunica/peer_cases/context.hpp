@@ -26,7 +26,8 @@ struct Context {
   std::optional<NodalPrestress> prestress = {};
   std::optional<InitialState> initial = {};
   std::optional<FibreFiles> fibres = {};
-  std::vector<NodalVelocities> velocities = {};
+  std::vector<NodalValues> nodal = {};
+  std::optional<WallRegions> regions = {};
 
   /// "svMultiPhysics", "svFSI" or "svSolver".
   const char* peer() const {

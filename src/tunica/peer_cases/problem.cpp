@@ -8,6 +8,8 @@
 
 namespace tunica::peer_cases {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 struct EquationName {
@@ -216,6 +218,25 @@ bool massless(const Context& context, const PosedProblem& problem) {
   return !problem.solves_fluid() && !problem.walls.empty() &&
          std::all_of(problem.walls.begin(), problem.walls.end(),
                      [&](const DomainPart& part) { return context.number(*part.properties, "Density") == 0.0; });
+}
+
+WallParts wall_parts(const Context& context, const PosedProblem& problem) {
+  WallParts parts;
+  const Entry* domains = problem.wall == nullptr ? nullptr : problem.wall->find("Domain_file_path");
+  const auto classes = std::max<std::size_t>(context.findings.fibre_angles.size(), 1);
+  if (domains == nullptr && classes == 1) return parts;
+  const bool list = domains != nullptr && text::lower(fs::path(domains->value).extension().string()) != ".vtu";
+  parts.made = list || classes > 1;
+  for (const DomainPart& part : problem.walls) {
+    if (domains != nullptr && !part.id) continue;
+    for (std::size_t k = 0; k < classes; ++k) {
+      std::string name = domains != nullptr ? fmt::format("domain_{}", *part.id) : "";
+      if (classes > 1) name += fmt::format("{}fibres_{}", name.empty() ? "" : "_", k + 1);
+      const int domain = domains != nullptr ? *part.id : 0;
+      parts.regions.push_back({&part, k, name, parts.made ? region_number(domain, k) : domain});
+    }
+  }
+  return parts;
 }
 
 std::optional<PosedProblem> pose(Context& context) {

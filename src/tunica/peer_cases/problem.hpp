@@ -48,6 +48,20 @@ struct PosedProblem {
 /// Has the wall of a case without blood no mass anywhere? Then it is in equilibrium with its loads.
 bool massless(const Context& context, const PosedProblem& problem);
 
+/// A part of the wall with a material of its own.
+struct WallRegion {
+  const DomainPart* part;
+  std::size_t fibre_class;  ///< in Findings::fibre_angles
+  std::string name;
+  int number;  ///< in the array that tells regions apart
+};
+/// None where the wall is one. `made`: is that array in a file that import makes, REGION, or DOMAIN_ID of the peer?
+struct WallParts {
+  std::vector<WallRegion> regions;
+  bool made = false;
+};
+WallParts wall_parts(const Context& context, const PosedProblem& problem);
+
 /// Adds what is missing or beyond tunica to the problems of `context`; nothing when no equation is left to pose.
 std::optional<PosedProblem> pose(Context& context);
 

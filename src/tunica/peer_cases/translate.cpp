@@ -214,8 +214,8 @@ Translation translate(PeerFile file, const UnitSystem& units, const std::filesys
     translate_output(context, general, top);
   }
   if (!context.problems.empty()) throw InputError(std::move(context.problems));
-  return {with_head(context, top), context.remarks, context.warnings,  context.prestress,
-          context.initial,         context.fibres,  context.velocities};
+  return {with_head(context, top), context.remarks, context.warnings, context.prestress,
+          context.initial,         context.fibres,  context.nodal,    context.regions};
 }
 
 }  // namespace tunica::peer_cases

@@ -117,16 +117,26 @@ std::vector<int> Conditions::axes(const Entry& condition) const {
 const Entry* Conditions::held_beside(const Entry& load) const {
   const std::string type = context_.text(load, "Type");
   const FacePart* found = problem_.face(load.label);
-  if (found == nullptr || found->lumen || !(type.starts_with("Neu") || type.starts_with("Trac"))) return nullptr;
+  const bool motion = type.starts_with("Dir");
+  if (found == nullptr || found->lumen || !(type.starts_with("Neu") || type.starts_with("Trac") || motion))
+    return nullptr;
   std::vector<const Entry*> others;
   for (const Entry* other : problem_.main->all("Add_BC"))
     if (other->label == load.label && other != &load) others.push_back(other);
   if (others.size() != 1) return nullptr;
   const Entry& other = *others[0];
-  const bool holds = context_.text(other, "Type").starts_with("Dir") && !axes(other).empty() &&
-                     context_.text(other, "Time_dependence", "Steady") == "Steady" &&
-                     context_.number(other, "Value").value_or(0) == 0;
-  return holds ? &other : nullptr;
+  const auto at_rest = [&](const Entry& c) {
+    return context_.text(c, "Type").starts_with("Dir") && !axes(c).empty() &&
+           context_.text(c, "Time_dependence", "Steady") == "Steady" && context_.number(c, "Value").value_or(0) == 0;
+  };
+  if (!at_rest(other)) return nullptr;
+  if (!motion) return &other;
+  // Of two that hold the face the first one brings the other along.
+  if (axes(load).empty() || (at_rest(load) && &load > &other)) return nullptr;
+  const auto along = axes(load), across = axes(other);
+  const bool apart = std::none_of(across.begin(), across.end(),
+                                  [&](int axis) { return std::find(along.begin(), along.end(), axis) != along.end(); });
+  return apart ? &other : nullptr;
 }
 
 void Conditions::refuse_second(const Entry& condition) {
@@ -135,7 +145,7 @@ void Conditions::refuse_second(const Entry& condition) {
       return context_.missing(
           condition,
           fmt::format("a second condition on the face {} beside that of line {}", condition.label, other->line),
-          "keep one of them, or split the face; a load goes with Dir 0 along some axes");
+          "keep one of them, or split the face; a load or a motion goes with Dir 0 along other axes");
 }
 
 std::optional<ConditionPart> Conditions::part_of(const Entry& condition) {
@@ -170,8 +180,8 @@ void Conditions::translate(const Entry& condition) {
       return context_.refuse(entry,
                              fmt::format("is `{}`, which {} does not have", text::printable(profile), context_.peer()),
                              "write Flat, Parabolic or User_defined");
-    if (!part->face.lumen || part->type != ConditionType::dirichlet)
-      return context_.missing(entry, "a load or a motion of the wall with a profile given node by node", "write Flat");
+    if (part->type == ConditionType::traction || part->type == ConditionType::robin)
+      return context_.missing(entry, "a support or a traction with a profile given node by node", "write Flat");
     if (condition.find("Spatial_profile_file_path") == nullptr)
       return context_.refuse(entry, "is User_defined without a file", "give Spatial_profile_file_path");
   }
@@ -190,10 +200,15 @@ void Conditions::translate(const ConditionPart& part) {
                : context_.missing(part.entry, "a wall that is loaded by a zero-dimensional model", "give the pressure");
   if (part.time == Dependence::spatial) return pressure_by_nodes(part);
   if (part.time == Dependence::general) {
-    if (blood && part.type == ConditionType::dirichlet) return lumen_velocity_in_time(part);
-    return context_.missing(*part.entry.find("Time_dependence"),
-                            "pressures, tractions and motions of walls given node by node and instant by instant",
-                            "use Spatial_values_file_path or Temporal_values_file_path");
+    if (part.type == ConditionType::dirichlet) return blood ? lumen_velocity_in_time(part) : wall_motion(part);
+    if (part.type == ConditionType::neumann) return pressure_by_nodes(part);
+    if (part.type == ConditionType::robin)
+      return context_.missing(*part.entry.find("Time_dependence"),
+                              "elastic support with a load given node by node and instant by instant",
+                              "give a steady load");
+    if (part.entry.find("Traction_values_file_path") != nullptr) return traction(part);
+    if (const Entry* file = file_in_time(part)) return traction_by_nodes(part, *file);
+    return;
   }
   if (outlets && (!blood || part.type != ConditionType::neumann))
     return context_.refuse(*part.entry.find("Time_dependence"), "is for Neu conditions of the blood", "write Steady");

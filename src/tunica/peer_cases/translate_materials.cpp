@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tunica/base/text.hpp"
 #include "tunica/peer_cases/problem.hpp"
@@ -27,6 +28,8 @@ struct LawName {
   std::optional<LawKind> law;
   const char* physics;  ///< of one that tunica does not have
 };
+
+constexpr double degrees = 180 / std::numbers::pi;
 
 constexpr const char *modified_stvk = "the modified law of St. Venant and Kirchhoff",
                      *full_invariants = "HGO with fibres that follow the strain as it is (HGO-ma)",
@@ -144,7 +147,7 @@ std::optional<Directions> read_directions(const Context& context, const std::vec
 
 /// The angle of the second family of fibres from the first, which is the direction e1 of the frame [rad]; 0 where it is
 /// not known: of files until these have been looked at, else translate_frame() reports it.
-double angle_of_families(Context& context, const PosedProblem& problem) {
+double angle_of_families(Context& context, const PosedProblem& problem, std::size_t fibre_class) {
   const auto entries = problem.wall->all("Fiber_direction"), files = problem.wall->all("Fiber_direction_file_path");
   if (entries.size() == 2) {
     const auto d = read_directions(context, entries);
@@ -152,12 +155,13 @@ double angle_of_families(Context& context, const PosedProblem& problem) {
   }
   if (files.size() != 2) return 0.0;
   context.fibres = FibreFiles{context.located(*files[0]), context.located(*files[1]), files[1]->where()};
-  return context.findings.fibre_angle.value_or(0.0);
+  const auto& angles = context.findings.fibre_angles;
+  return fibre_class < angles.size() ? angles[fibre_class] : 0.0;
 }
 
 void translate_hgo(Context& context, const PosedProblem& problem, const Entry& law, const Constants& c,
-                   CaseKey& material) {
-  const double angle = angle_of_families(context, problem);
+                   std::size_t fibre_class, CaseKey& material) {
+  const double angle = angle_of_families(context, problem, fibre_class);
   auto& section = material.section("goh", law.where() + " " + law.label);
   add_constants(context, c, section);
   section.add("exclusion", "none", fmt::format("{} counts fibres under compression", context.peer()));
@@ -231,7 +235,8 @@ std::optional<LawKind> kind_of(Context& context, const Entry& properties) {
   return std::nullopt;
 }
 
-void translate_law(Context& context, const PosedProblem& problem, const DomainPart& part, CaseKey& to) {
+void translate_law(Context& context, const PosedProblem& problem, const DomainPart& part, std::size_t fibre_class,
+                   CaseKey& to) {
   const auto kind = kind_of(context, *part.properties);
   const auto constants = constants_of(context, part);
   if (!kind || !constants) return;
@@ -252,7 +257,7 @@ void translate_law(Context& context, const PosedProblem& problem, const DomainPa
     context.add_required(*law, "c2", context.units.pressure, section, "c2");
     add_compressibility(context, *constants, section);
   } else if (*kind == LawKind::hgo) {
-    translate_hgo(context, problem, *law, *constants, material);
+    translate_hgo(context, problem, *law, *constants, fibre_class, material);
   } else if (*kind == LawKind::guccione) {
     translate_guccione(context, *law, *constants, material);
   } else {
@@ -411,20 +416,25 @@ void translate_wall(Context& context, const PosedProblem& problem, CaseKey& top)
       if (context.number(*part.properties, key).value_or(0) != 0)
         context.changed(*part.properties->find(key), "tunica's mixed element has a stabilisation of its own");
   }
-  translate_law(context, problem, first, wall);
+  translate_law(context, problem, first, 0, wall);
   translate_volumetric(context, problem, wall);
   translate_wall_viscosity(context, problem, wall);
-  if (problem.walls.size() > 1) {
+  if (const auto parts = wall_parts(context, problem).regions; parts.size() > 1) {
     auto& regions = wall.section("regions", "");
-    for (std::size_t i = 0; i < problem.walls.size(); ++i) {
-      const DomainPart& part = problem.walls[i];
-      auto& region = regions.section(fmt::format("domain_{}", part.id.value_or(0)), part.properties->where());
-      translate_density(context, problem, part, region);
-      translate_law(context, problem, part, region);
+    for (const WallRegion& part : parts) {
+      auto& region = regions.section(part.name, part.part->properties->where());
+      translate_density(context, problem, *part.part, region);
+      translate_law(context, problem, *part.part, part.fibre_class, region);
     }
     wall.add("smoothing_length", with_unit(0.0, context.units.length),
              fmt::format("materials jump, as in {}", context.peer()));
   }
+  if (const auto& angles = context.findings.fibre_angles; angles.size() > 1)
+    context.remarks.changed.push_back(fmt::format(
+        "{}: the angle between the families, {:.2f} to {:.2f} degrees, is that of {} classes of elements; the second "
+        "family of an element is turned by at most {:.2f} degrees",
+        context.fibres->where, angles.front() * degrees, angles.back() * degrees, angles.size(),
+        context.findings.fibre_deviation * degrees));
   translate_prestress(context, problem, wall);
   if (fibres)
     translate_frame(context, problem, orthotropic, wall);

@@ -11,8 +11,6 @@ namespace tunica::peer_cases {
 
 namespace {
 
-std::string ending(const std::string& path) { return text::lower(std::filesystem::path(path).extension().string()); }
-
 void translate_faces(Context& context, const Entry& mesh, bool lumen, CaseKey& section) {
   auto& faces = section.section("faces", "");
   for (const Entry* face : mesh.all("Add_face")) {
@@ -27,15 +25,31 @@ void translate_faces(Context& context, const Entry& mesh, bool lumen, CaseKey& s
 }
 
 /// The regions of the wall, told apart by an array of another file.
-void translate_domain_file(Context& context, const PosedProblem& problem, const Entry& file, CaseKey& section) {
-  if (ending(file.value) != ".vtu")
-    return context.missing(file, "domains as a list of numbers", "give a .vtu file with the cell array DOMAIN_ID");
-  auto& array = section.section("arrays", "").section("DOMAIN_ID", file.where());
-  array.add("file", context.path(file), file.where());
-  section.add("region_array", "DOMAIN_ID", file.where());
+void translate_regions(Context& context, const PosedProblem& problem, const Entry& mesh, CaseKey& section) {
+  const WallParts parts = wall_parts(context, problem);
+  if (parts.regions.empty()) return;
+  const Entry* domains = mesh.find("Domain_file_path");
+  const std::string where = domains != nullptr ? domains->where() : context.fibres->where;
+  const std::string name = parts.made ? "REGION" : "DOMAIN_ID";
+  auto& array = section.section("arrays", "").section(name, where);
+  if (parts.made) {
+    WallRegions made{.domains = domains != nullptr ? context.located(*domains) : std::filesystem::path(),
+                     .known = {},
+                     .where = where,
+                     .file = context.file.path.stem().string() + "_regions.vtu"};
+    for (const DomainPart& part : problem.walls)
+      if (part.id) made.known.push_back(*part.id);
+    if (domains != nullptr) context.path(*domains);  // warns when it is not there
+    array.add("file", yaml_text(made.file), "made of it");
+    context.remarks.changed.push_back(where + ": the regions of the elements are written to the file " + made.file);
+    context.regions = std::move(made);
+  } else {
+    array.add("file", context.path(*domains), where);
+  }
+  section.add("region_array", name, where);
   auto& regions = section.section("regions", "");
-  for (const DomainPart& part : problem.walls)
-    if (part.id) regions.add(fmt::format("domain_{}", *part.id), std::to_string(*part.id), part.properties->where());
+  for (const WallRegion& region : parts.regions)
+    regions.add(region.name, std::to_string(region.number), region.part->properties->where());
 }
 
 /// Directions of fibres, which the peers keep in files of their own.
@@ -62,9 +76,8 @@ void translate_mesh(Context& context, const PosedProblem& problem, const Entry& 
     section.add("volume", context.path(*file), file->where());
   translate_faces(context, mesh, lumen, section);
   if (lumen) return;
-  if (const Entry* domains = mesh.find("Domain_file_path"))
-    translate_domain_file(context, problem, *domains, section);
-  else if (problem.walls.size() > 1)
+  translate_regions(context, problem, mesh, section);
+  if (mesh.find("Domain_file_path") == nullptr && problem.walls.size() > 1)
     context.refuse(mesh, fmt::format("has one Domain, the equation has {} of walls", problem.walls.size()),
                    "give the mesh a Domain_file_path, or leave Domains out");
   translate_fibre_files(context, mesh, section);

@@ -24,12 +24,9 @@ InitialFiles files_of(Context& context, const Entry& mesh, std::string& sources)
 }
 
 void refuse_displacements(Context& context, const PosedProblem& problem) {
-  if (!problem.solves_fluid()) return;
-  for (const Entry* mesh : {problem.lumen, problem.wall})
-    if (mesh != nullptr)
-      if (const Entry* entry = mesh->find("Initial_displacements_file_path"))
-        context.missing(*entry, "a start with a displaced wall beside blood, whose mesh would start displaced, too",
-                        "remove the key where the displacement is that of a prestressed wall, which is none");
+  if (problem.solves_wall() || problem.lumen == nullptr) return;
+  if (const Entry* entry = problem.lumen->find("Initial_displacements_file_path"))
+    context.missing(*entry, "blood between rigid walls whose mesh starts displaced", "remove the key");
 }
 
 void find_prestress(Context& context, const PosedProblem& problem, CaseKey& top) {
@@ -58,6 +55,12 @@ void translate_start(Context& context, const PosedProblem& problem, CaseKey& top
   if (problem.solves_wall() && problem.wall != nullptr) state.wall = files_of(context, *problem.wall, sources);
   if (!state.lumen.any() && !state.wall.any()) return;
   const Entry& mesh = problem.lumen != nullptr ? *problem.lumen : *problem.wall;
+  if (state.wall.displacement && problem.solves_fluid() && !state.lumen.displacement)
+    context.changed(
+        *problem.wall->find("Initial_displacements_file_path"),
+        fmt::format("the mesh of the blood starts where the displaced wall takes it, in {} it follows in the "
+                    "first step",
+                    context.peer()));
   if (massless(context, problem))
     return context.missing(mesh, "initial fields of a wall without mass", "remove them, or write the density");
   state.file = context.file.path.stem().string() + "_start.checkpoint";

@@ -67,13 +67,31 @@ inline void add_dead_pressure(const SurfaceState<T>& s, const T& p, SurfaceVecto
   detail::add_constant(p * detail::reference_area(s), r);
 }
 
+/// Dead traction [Pa] that the shape functions interpolate between the nodes.
+template <class T>
+inline void add_dead_traction(const SurfaceState<T>& s, const Vec3<T> (&t)[triangle_nodes], SurfaceVector<T>& r) {
+  const T area = norm(detail::reference_area(s));
+  for (int a = 0; a < triangle_nodes; ++a)
+    for (int b = 0; b < triangle_nodes; ++b) r.r[a] = r.r[a] - (area * T(fe::quadratic_triangle_mass[a][b])) * t[b];
+}
+
+/// Dead pressure [Pa] of the same kind.
+template <class T>
+inline void add_dead_pressure(const SurfaceState<T>& s, const T (&p)[triangle_nodes], SurfaceVector<T>& r) {
+  const Vec3<T> area = detail::reference_area(s);
+  for (int a = 0; a < triangle_nodes; ++a)
+    for (int b = 0; b < triangle_nodes; ++b) r.r[a] = r.r[a] + (T(fe::quadratic_triangle_mass[a][b]) * p[b]) * area;
+}
+
 /// Pressure p [Pa] on the deformed triangle, r_a += p int N_a x,1 x x,2: a polynomial of degree 4, so that the seven
 /// points are exact. Where `k` is given, adds the tangent with respect to u, times du/dx:
 ///   d (x,1 x x,2) = d x (N_b,1 x,2 - N_b,2 x,1) for a displacement d of the node b.
-template <class T>
-inline void add_follower_pressure(const SurfaceState<T>& s, const T& p, double du_dx, SurfaceVector<T>& r,
-                                  std::type_identity_t<SurfaceMatrix<T>>* k) {
+/// `pressure(N)`: p where the shape functions are N. Of one that varies linearly the points leave nothing out either.
+template <class T, class Pressure>
+inline void add_varying_pressure(const SurfaceState<T>& s, const Pressure& pressure, double du_dx, SurfaceVector<T>& r,
+                                 std::type_identity_t<SurfaceMatrix<T>>* k) {
   for (const auto& point : fe::quadratic_seven_points) {
+    const T p = pressure(point.N);
     const detail::Slopes dN = detail::slopes(point.barycentric);
     Vec3<T> first{{T(0.0), T(0.0), T(0.0)}}, second = first;
     for (int b = 0; b < triangle_nodes; ++b) {
@@ -94,6 +112,26 @@ inline void add_follower_pressure(const SurfaceState<T>& s, const T& p, double d
         }
     }
   }
+}
+
+/// The same on the whole triangle.
+template <class T>
+inline void add_follower_pressure(const SurfaceState<T>& s, const T& p, double du_dx, SurfaceVector<T>& r,
+                                  std::type_identity_t<SurfaceMatrix<T>>* k) {
+  add_varying_pressure(
+      s, [&p](const auto&) { return p; }, du_dx, r, k);
+}
+
+/// Interpolated between the nodes.
+template <class T>
+inline void add_follower_pressure(const SurfaceState<T>& s, const T (&p)[triangle_nodes], double du_dx,
+                                  SurfaceVector<T>& r, std::type_identity_t<SurfaceMatrix<T>>* k) {
+  const auto interpolated = [&p](const auto& N) {
+    T sum(0.0);
+    for (int a = 0; a < triangle_nodes; ++a) sum += T(N[a]) * p[a];
+    return sum;
+  };
+  add_varying_pressure(s, interpolated, du_dx, r, k);
 }
 
 /// Springs and dampers with the consistent surface mass, and p0 on the deformed triangle. Where `k` is given, adds the

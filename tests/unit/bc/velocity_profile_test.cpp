@@ -48,18 +48,19 @@ class ProfileTable : public ::testing::Test {
   }
   ~ProfileTable() override { std::filesystem::remove(file_); }
   std::filesystem::path file_ = std::filesystem::temp_directory_path() / "tunica_profile_table.csv";
+  PointTable table() const { return {profile_.over_face(), velocity_columns}; }
   VelocityProfile profile_;
 };
 
 TEST_F(ProfileTable, IsExactForLinearFieldsAndAtItsPoints) {
-  const PointTable table(profile_);
+  const PointTable table = this->table();
   for (const auto& [x, y] : {std::pair{1.3, 2.6}, {0.0, 0.0}, {4.0, 3.0}, {2.5, 0.1}})
-    EXPECT_LE(norm(table.velocity({{x, y, 0.5}}) - Vec3<double>{{1 + 2 * x - y, 0, 3 * y}}), 1e-6) << x << " " << y;
+    EXPECT_LE(norm(table.value({{x, y, 0.5}}) - Vec3<double>{{1 + 2 * x - y, 0, 3 * y}}), 1e-6) << x << " " << y;
 }
 
 TEST_F(ProfileTable, NearestTakesOnePoint) {
   profile_.interpolation = VelocityProfile::Interpolation::nearest;
-  EXPECT_LE(norm(PointTable(profile_).velocity({{1.4, 2.4, 0.5}}) - Vec3<double>{{1, 0, 6}}), 1e-12);
+  EXPECT_LE(norm(table().value({{1.4, 2.4, 0.5}}) - Vec3<double>{{1, 0, 6}}), 1e-12);
 }
 
 class ProfileInTime : public ProfileTable {
@@ -74,12 +75,12 @@ class ProfileInTime : public ProfileTable {
     out.close();
     profile_.interpolation = VelocityProfile::Interpolation::nearest;
   }
-  double speed(double x, double t) const { return PointTable(profile_).velocity({{x, 0, 0}}, t)[0]; }
+  double speed(double x, double t) const { return table().value(Vec3<double>{{x, 0, 0}}, t)[0]; }
 };
 
 TEST_F(ProfileInTime, IsLinearBetweenTimesAndHoldsItsEnds) {
   write({0, 0.2, 0.6}, {1, 3, 7});
-  EXPECT_FALSE(PointTable(profile_).steady());
+  EXPECT_FALSE(table().steady());
   EXPECT_DOUBLE_EQ(speed(0.1, 0.1), 2);
   EXPECT_DOUBLE_EQ(speed(0.9, 0.5), 12);
   EXPECT_DOUBLE_EQ(speed(0, 0.6), 7);
@@ -96,22 +97,40 @@ TEST_F(ProfileInTime, RepeatsItselfWithAPeriod) {
   EXPECT_NEAR(speed(0, 0.8), 4, 1e-12);
   EXPECT_NEAR(speed(0, 1.1), 2, 1e-12);
   profile_.period = 0.5;
-  EXPECT_THROW(PointTable{profile_}, InputError);
+  EXPECT_THROW(table(), InputError);
 }
 
 TEST_F(ProfileInTime, RefusesOtherPointsAndTimesThatGoBack) {
   write({0, 0.2}, {1, 3}, 1);
-  EXPECT_THROW(PointTable{profile_}, InputError);
+  EXPECT_THROW(table(), InputError);
   write({0.2, 0.1}, {1, 3});
-  EXPECT_THROW(PointTable{profile_}, InputError);
+  EXPECT_THROW(table(), InputError);
   write({0, 0.2}, {1, 3}, 3);
-  EXPECT_THROW(PointTable{profile_}, InputError);
+  EXPECT_THROW(table(), InputError);
+}
+
+TEST_F(ProfileInTime, HistoriesSayTheSame) {
+  write({0, 0.2, 0.6}, {1, 3, 7});
+  profile_.period = 0.8;
+  const PointTable points = table();
+  const Vec3<double> place{{0.9, 0, 0}};
+  const auto history = points.history(place);
+  ASSERT_EQ(history.size(), 3u);
+  for (const double t : {-0.3, 0.0, 0.1, 0.2, 0.5, 0.7, 3.3})
+    EXPECT_LE(norm(points.value(history, t) - points.value(place, t)), 1e-14) << t;
+}
+
+TEST_F(ProfileTable, FactorsStandInTheFirstComponent) {
+  std::ofstream(file_) << "x,y,z,factor\n0,0,0,2\n1,0,0,3\n0,1,0,4\n";
+  const PointTable points({.table = file_, .unit = 10.0}, factor_column);
+  EXPECT_LE(norm(points.value({{1, 0, 0}}) - Vec3<double>{{30, 0, 0}}), 1e-6);
+  EXPECT_THROW(PointTable({.table = file_}, traction_columns), InputError);
 }
 
 TEST_F(ProfileTable, RefusesPlacesFarAway) {
-  EXPECT_THROW(PointTable(profile_).velocity({{100, 0, 0}}), InputError);
+  EXPECT_THROW(table().value({{100, 0, 0}}), InputError);
   profile_.length_unit = 1e-3;
-  EXPECT_THROW(PointTable(profile_).velocity({{1.3, 2.6, 0.5}}), InputError);
+  EXPECT_THROW(table().value({{1.3, 2.6, 0.5}}), InputError);
 }
 
 }  // namespace

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 #include <map>
 #include <string>
 
 #include "small_cases.hpp"
+#include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/coupling/nodal.hpp"
 #include "tunica/fluid/boundary.hpp"
+#include "tunica/mesh/edge_nodes.hpp"
 
 namespace tunica::coupling {
 namespace {
@@ -459,6 +463,93 @@ TEST(Boundaries, NodalPressureIsAFollowerPressure) {
   const auto expected = residual_with(test::pressure(3e3), 0.0), found = residual_with(bc::Free{}, 3e3);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-15);
+}
+
+/// A table of values at all points of a mesh.
+class OverAFace : public testing::Test {
+ protected:
+  /// `line`: the values at a point.
+  template <class Line>
+  bc::OverFace table(const mesh::MeshData& data, const std::string& columns, const Line& line) const {
+    // Each rank reads a file of its own, all of them the same.
+    std::ofstream out(folder.path() / "table.csv");
+    out << std::setprecision(17) << "x,y,z," << columns << "\n";
+    for (const auto& x : data.points) out << x[0] << "," << x[1] << "," << x[2] << "," << line(x) << "\n";
+    return {.table = folder.path() / "table.csv", .interpolation = bc::OverFace::Interpolation::nearest};
+  }
+  /// The loads of a condition on the outer side of a wall, at a displacement that is not zero.
+  static std::vector<double> loads(const mesh::MeshData& data, const bc::Condition& outer) {
+    const Bound b(data, input(outer));
+    const auto fields = test::random_fields(b.mesh, {.displacement = 2e-4});
+    std::vector<double> residual(at(b.mesh.nodes()), 0.0);
+    b.boundaries.loads().add(0.0, 0.5, fields.view(), {0.0, 1.0}, residual, nullptr);
+    return residual;
+  }
+  static BoundaryInput input(const bc::Condition& outer) {
+    auto in = test::fsi_input(test::pressure(0.0), test::pressure(0.0)).boundary;
+    in.conditions.back().second = outer;
+    return in;
+  }
+  static void expect_same(const std::vector<double>& found, const std::vector<double>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    double largest = 0;
+    for (const double f : expected) largest = std::max(largest, std::abs(f));
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-12 * largest);
+  }
+  test::TemporaryFolder folder;
+  static mesh::MeshData quadratic_tube() {
+    auto tube = test::fsi_tube();
+    mesh::add_edge_nodes(tube);
+    return tube;
+  }
+  const mesh::MeshData tubes[2] = {test::fsi_tube(), quadratic_tube()};
+};
+
+TEST_F(OverAFace, OneValueEverywhereIsThatOfTheFace) {
+  for (const auto& tube : tubes) {
+    const bc::WaveformInput ramped{.source = 3e3, .scale = 1.5};
+    const auto factor = table(tube, "factor", [](const auto&) { return "1"; });
+    for (const bool follower : {true, false})
+      expect_same(loads(tube, bc::Pressure{.pressure = ramped, .follower = follower, .over_face = factor}),
+                  loads(tube, bc::Pressure{.pressure = ramped, .follower = follower}));
+    auto tractions = table(tube, "tx,ty,tz", [](const auto&) { return "1,2,3"; });
+    tractions.unit = 1e3;
+    expect_same(loads(tube, bc::Traction{.course = {0.5}, .over_face = tractions}),
+                loads(tube, bc::Traction{.vector = {{500, 1000, 1500}}}));
+  }
+}
+
+// 2 z / length along the tube has the mean one, and its first moment is that of a line.
+TEST_F(OverAFace, ALineIsIntegratedExactly) {
+  const double length = test::tube_sizes(0.0).length;
+  for (const auto& tube : tubes) {
+    const auto line =
+        table(tube, "tx,ty,tz", [&](const auto& x) { return std::to_string(2 * x[2] / length) + ",0,0"; });
+    const Bound b(tube, input(bc::Free{}));
+    const auto found = loads(tube, bc::Traction{.over_face = line}),
+               one = loads(tube, bc::Traction{.vector = {{1, 0, 0}}});
+    double sums[3] = {};
+    for (std::int32_t i = 0; i < b.mesh.owned_nodes; ++i) {
+      sums[0] += found[at(i)], sums[1] += one[at(i)];
+      sums[2] += found[at(i)] * b.mesh.points[i][2];
+    }
+    parallel::global_sum(MPI_COMM_WORLD, sums);
+    EXPECT_NEAR(sums[0], sums[1], 1e-6 * std::abs(sums[1]));
+    EXPECT_NEAR(sums[2], 2.0 / 3 * length * sums[1], 1e-6 * std::abs(length * sums[1]));
+  }
+}
+
+TEST_F(OverAFace, TheTangentIsTheDerivative) {
+  for (const auto& tube : tubes) {
+    const auto factor = table(tube, "factor", [](const auto& x) { return 1 + 30 * x[0] - 20 * x[1] + 10 * x[2]; });
+    expect_consistent(tube, input(bc::Pressure{.pressure = {4e3}, .over_face = factor}));
+  }
+}
+
+TEST_F(OverAFace, AFarTableIsRefused) {
+  auto tractions = table(tubes[0], "tx,ty,tz", [](const auto&) { return "1,2,3"; });
+  tractions.length_unit = 1e-6;
+  EXPECT_THROW(loads(tubes[0], bc::Traction{.over_face = tractions}), InputError);
 }
 
 TEST(Boundaries, RefuseAFaceThatIsNotThere) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "small_cases.hpp"
+#include "temporary_folder.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::coupling {
@@ -85,6 +87,28 @@ TEST(MovedFaces, WhatOthersFixStaysAtRest) {
     ++along_y;
   });
   EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, static_cast<std::int64_t>(along_y)), 0);
+}
+
+TEST(MovedFaces, FollowATableInTime) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "moved.csv") << "t,x,y,z,ux,uy,uz\n0,3,0,0,0,0,0\n0,3,1,0,0,0,0\n0,3,0,1,0,0,0\n"
+                                                "2,3,0,0,1,0,0\n2,3,1,0,2,0,0\n2,3,0,1,1,0,0\n";
+  const auto mesh = bar();
+  // u_x = t/2 (1 + y / cm) mm
+  const MovedFaces faces(
+      mesh,
+      bar_input(bc::Displacement{
+                    .course = {2.0},
+                    .directions = {true, false, false},
+                    .over_face = bc::OverFace{.table = folder.path() / "moved.csv", .unit = 1e-3, .length_unit = 0.01}})
+          .boundary.conditions);
+  std::int64_t seen = 0;
+  faces.at(1.5, [&](std::int32_t node, int axis, double displacement) {
+    EXPECT_EQ(axis, 0);
+    EXPECT_NEAR(displacement, 2 * 0.75e-3 * (1 + 100 * mesh.points[node][1]), 1e-9);
+    ++seen;
+  });
+  EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, seen), 0);
 }
 
 TEST(LoadedFaces, AreHeldAlongAxesUnderTheLoad) {

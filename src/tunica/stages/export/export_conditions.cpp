@@ -37,6 +37,8 @@ int axis_of(const mesh::MeshData& data, const std::string& name) {
   return -1;
 }
 
+constexpr const char* in_points = "a table of points, which this export does not write";
+
 /// Writes the conditions of one face.
 class FaceExport {
  public:
@@ -60,6 +62,7 @@ class FaceExport {
       e_.change(where_, "on an opening that is not round the profile differs; the flow is the same");
   }
   void operator()(const bc::Pressure& c) {
+    if (c.over_face) return e_.missing(where_ + ".pressure.over_face", in_points, "give one value");
     Entry& entry = condition("Neu");
     course(entry, c.pressure, bc::make_waveform(c.pressure), 1 / factor(e_.units.pressure, dimension::pressure));
     if (!on_wall()) return;
@@ -73,6 +76,7 @@ class FaceExport {
     hold(c.fixed);
   }
   void operator()(const bc::Traction& c) {
+    if (c.over_face) return e_.missing(where_ + ".traction.over_face", in_points, "give one value");
     if (!fixed(c.course))
       return e_.missing(where_ + ".traction.waveform", "a traction in time", "give a constant traction");
     if (c.undeforming)
@@ -117,6 +121,7 @@ class FaceExport {
   }
   void operator()(const bc::Free&) {}
   void operator()(const bc::Displacement& c) {
+    if (c.over_face) return e_.missing(where_ + ".displacement.over_face", in_points, "give one value");
     double size = 0;
     for (int i = 0; i < 3; ++i) {
       if (!c.directions[static_cast<std::size_t>(i)]) continue;

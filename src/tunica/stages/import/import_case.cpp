@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/base/text.hpp"
@@ -9,10 +11,10 @@
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/peer_cases/translate.hpp"
-#include "tunica/stages/import/fibre_angle.hpp"
 #include "tunica/stages/import/initial_state.hpp"
 #include "tunica/stages/import/nodal_prestress.hpp"
-#include "tunica/stages/import/nodal_velocities.hpp"
+#include "tunica/stages/import/nodal_values.hpp"
+#include "tunica/stages/import/wall_regions.hpp"
 
 namespace tunica::stages {
 
@@ -61,34 +63,53 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, none);
 }
 
-/// The angle that a law needs, and without the files there is no case.
-void look_at_fibres(const std::optional<peer_cases::FibreFiles>& fibres, peer_cases::Findings& found) {
-  if (!fibres) return;
+/// The angles that a law needs, and without the files there is no case.
+FibreAngles look_at_fibres(const std::optional<peer_cases::FibreFiles>& fibres, peer_cases::Findings& found) {
+  if (!fibres) return {};
   if (!is_file(fibres->first) || !is_file(fibres->second))
     throw InputError(fibres->where, "is not there, or that of the first family: the angle between them stands in both",
                      "import where both files are");
-  found.fibre_angle = fibre_angle(*fibres);
+  auto angles = fibre_angles(*fibres);
+  found.fibre_angles = angles.angles;
+  found.fibre_deviation = angles.largest_deviation;
+  return angles;
 }
 
-/// Tables of velocities, by their files in the folder of the case.
-struct VelocityTables {
-  mesh::MeshData lumen;
-  std::vector<std::pair<std::string, VelocityTable>> tables;
+/// A table of values at nodes, by its file in the folder of the case.
+struct NamedTable {
+  peer_cases::NodalValues wanted;
+  NodalTable table;
 };
 
-/// Those whose files and mesh are there; notes their periods.
-VelocityTables read_velocities(const std::vector<peer_cases::NodalVelocities>& all, const case_file::Case& c,
-                               const peer_cases::UnitSystem& units, peer_cases::Findings& found) {
-  if (all.empty() || !c.meshes.lumen || !all_there(c.meshes.lumen->files)) return {};
+/// Tables of values of one mesh.
+struct MeshTables {
+  mesh::MeshData mesh;
+  std::vector<NamedTable> tables;
+};
+
+/// Those of the lumen or of the wall whose files and mesh are there; notes their periods.
+MeshTables read_tables(const std::vector<peer_cases::NodalValues>& all, bool wall, const case_file::Case& c,
+                       const peer_cases::UnitSystem& units, peer_cases::Findings& found) {
   case_file::MeshSettings meshes = c.meshes;
-  meshes.wall.reset();
+  if (wall)
+    meshes.lumen.reset();
+  else
+    meshes.wall.reset();
   meshes.interface.reset();
-  VelocityTables read{artifacts::load_meshes(meshes, {}).data, {}};
+  case_file::NamedFiles* files = nullptr;
+  if (meshes.lumen) files = &meshes.lumen->files;
+  if (meshes.wall) files = &meshes.wall->files;
+  if (files == nullptr || !all_there(*files) ||
+      std::none_of(all.begin(), all.end(), [&](const auto& wanted) { return wanted.wall == wall; }))
+    return {};
+  files->rest = unnamed_boundary;
+  if (meshes.wall) meshes.wall->region_array.reset();
+  MeshTables read{artifacts::load_meshes(meshes, {}).data, {}};
   for (const auto& wanted : all) {
-    if (!is_file(wanted.file)) continue;
-    auto table = read_nodal_velocities(wanted, read.lumen, meshes.metres(), units);
-    if (!table.times.empty()) found.periods[wanted.table] = table.times.back();
-    read.tables.emplace_back(wanted.table, std::move(table));
+    if (wanted.wall != wall || (!wanted.file.empty() && !is_file(wanted.file))) continue;
+    auto table = read_nodal_values(wanted, read.mesh, meshes.metres(), units);
+    if (table.period) found.periods[wanted.table] = *table.period;
+    read.tables.push_back({wanted, std::move(table)});
   }
   return read;
 }
@@ -133,9 +154,11 @@ ImportOutcome import_case(const ImportRequest& request) {
   auto posed = read(translation.yaml, request.case_file);
   for (const Problem& warning : posed.warnings) outcome.warnings.push_back(format(warning));
   auto found = look_at_meshes(posed.value, outcome.warnings);
-  look_at_fibres(translation.fibres, found);
-  const auto velocities = read_velocities(translation.velocities, posed.value, units, found);
-  if (found.lumen_rest || found.wall_rest || found.quadratic || found.fibre_angle || !found.periods.empty()) {
+  const auto angles = look_at_fibres(translation.fibres, found);
+  MeshTables tables[2];
+  for (const bool wall : {false, true})
+    tables[wall ? 1 : 0] = read_tables(translation.nodal, wall, posed.value, units, found);
+  if (found.lumen_rest || found.wall_rest || found.quadratic || !found.fibre_angles.empty() || !found.periods.empty()) {
     translation = peer_cases::translate(file, units, folder, found);
     posed = read(translation.yaml, request.case_file);
   }
@@ -149,8 +172,13 @@ ImportOutcome import_case(const ImportRequest& request) {
       throw InputError(request.case_file.string(), "is there already, with other contents",
                        "choose another name by -o, or replace it with --overwrite");
   }
+  if (const auto& regions = translation.regions; regions && all_there(posed.value.meshes))
+    if (regions->domains.empty() || is_file(regions->domains))
+      write_wall_regions(*regions, angles, posed.value.meshes, folder);
   write_files(translation, posed.value, units, folder);
-  for (const auto& [name, table] : velocities.tables) write_velocity_table(table, velocities.lumen, folder / name);
+  for (const auto& [mesh, of_mesh] : tables)
+    for (const auto& [wanted, table] : of_mesh)
+      write_nodal_table(table, wanted, mesh, found.quadratic, folder / wanted.table);
   if (!outcome.unchanged) files::write_atomically(request.case_file, translation.yaml);
   return outcome;
 }

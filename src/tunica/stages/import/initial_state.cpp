@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <variant>
 
 #include "tunica/artifacts/load_mesh.hpp"
@@ -72,13 +73,18 @@ struct Fill {
              3, 0, state.displacement);
   }
 
-  /// Nodes of the wall on the interface move as those of the blood there.
-  void join_twins(bool lumen_leads) {
+  /// Nodes of wall and lumen on the interface move alike: in the velocity of the lumen where it is given, in the
+  /// displacement of the wall.
+  void join_twins(bool lumen_leads, bool wall_is_displaced) {
     for (const auto& [wall, lumen] : data.twins) {
-      const auto from = static_cast<std::size_t>(lumen_leads ? lumen : wall);
-      const auto to = static_cast<std::size_t>(lumen_leads ? wall : lumen);
-      for (auto* field : {&state.velocity_pressure, &state.displacement, &state.displacement_rate})
-        for (std::size_t i = 0; i < 3; ++i) (*field)[4 * to + i] = (*field)[4 * from + i];
+      const auto join = [&](bool from_lumen, std::initializer_list<std::vector<double>*> fields) {
+        const auto from = static_cast<std::size_t>(from_lumen ? lumen : wall);
+        const auto to = static_cast<std::size_t>(from_lumen ? wall : lumen);
+        for (auto* field : fields)
+          for (std::size_t i = 0; i < 3; ++i) (*field)[4 * to + i] = (*field)[4 * from + i];
+      };
+      join(lumen_leads, {&state.velocity_pressure, &state.displacement_rate});
+      join(!wall_is_displaced, {&state.displacement});
     }
   }
 };
@@ -152,7 +158,7 @@ void write_initial_state(const peer_cases::InitialState& initial, const case_fil
   Fill fill{data, units, c.meshes.metres(), state};
   fill.take(initial.lumen, 0, lumen_points, false);
   fill.take(initial.wall, lumen_points, data.points.size() - lumen_points, true);
-  fill.join_twins(initial.lumen.velocity.has_value());
+  fill.join_twins(initial.lumen.velocity.has_value(), initial.wall.displacement.has_value());
   for (std::size_t n = 0; n < data.points.size(); ++n) state.end_pressure.push_back(state.velocity_pressure[4 * n + 3]);
   state.outlets = outlets_of(c, data, state);
   artifacts::write_start(target, state, artifacts::mesh_hash(data));

@@ -114,7 +114,10 @@ void Run::pose() {
       if (const auto* resistance = std::get_if<bc::Resistance>(&condition)) outlet_models_.emplace_back(*resistance);
     }
   if (const auto* statics = std::get_if<case_file::StaticWall>(&case_.analysis)) state_.time = statics->load_time;
-  if (case_.start && !continued()) start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
+  if (case_.start && !continued()) {
+    start_from(*case_.start, case_, mesh_, mesh_hash_, state_);
+    problem_->settle_mesh(state_);
+  }
 }
 
 void Run::describe_problem() {
