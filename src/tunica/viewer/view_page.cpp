@@ -76,10 +76,7 @@ std::string begin_page(const std::string& title) {
   return page::begin(title, head);
 }
 
-std::string view(const PackedBeat& beat) {
-  return std::string(assets::markup().text) + data_element("beat-head", beat.head, "application/json") +
-         data_element("beat-data", beat.data, "text/plain");
-}
+std::string view() { return std::string(assets::markup().text); }
 
 std::string accuracy(const PackedBeat& beat) {
   std::vector<std::vector<std::string>> rows;
@@ -108,14 +105,17 @@ std::string plot(const std::vector<Plot>& plots, std::size_t index, const std::s
   return fmt::format("<figure data-plot=\"{}\">{}<figcaption>{}</figcaption></figure>\n", index, svg, caption);
 }
 
-std::string end_page(const std::vector<Plot>& plots, bool with_view) {
+std::string end_page(const std::vector<Plot>& plots, const PackedBeat* shown) {
   json data = json::array();
   for (const auto& p : plots) data.push_back(data_of(p));
   std::string text = plots.empty() ? "" : data_element("plots", data.dump(), "application/json");
   text += script(assets::plots());
-  if (with_view)
+  if (shown != nullptr) {
+    text += data_element("beat-head", shown->head, "application/json") +
+            data_element("beat-data", shown->data, "text/plain");
     for (const auto& asset : {assets::three(), assets::beat(), assets::scene(), assets::still(), assets::panel()})
       text += script(asset);
+  }
   return text + page::end();
 }
 

@@ -45,12 +45,12 @@ constexpr const char* contents =
 /// The beat in 3D; a case whose fields cannot be shown says why.
 struct View {
   std::string text, accuracy;
-  bool drawn = false;
+  std::optional<viewer::PackedBeat> beat;
 };
 
 View view_of(const stages::report::Results& r, const BeatSource& source, const files::Say& say) {
   if (!r.report.settings.view) return {};
-  View view{"<h2 id=\"view3d\">The beat in 3D</h2>\n", "", false};
+  View view{"<h2 id=\"view3d\">The beat in 3D</h2>\n", "", {}};
   const auto without = [&](const std::string& why) {
     view.text += stages::report::missing("The view", why);
     return view;
@@ -61,10 +61,9 @@ View view_of(const stages::report::Results& r, const BeatSource& source, const f
     auto beat = collect_beat(source, say);
     for (const auto& remark : beat.remarks) view.accuracy += stages::report::missing("The view", remark);
     say("view: modes and page");
-    const auto packed = viewer::pack(std::move(beat), {});
-    view.text += viewer::view(packed);
-    view.accuracy += viewer::accuracy(packed);
-    view.drawn = true;
+    view.beat = viewer::pack(std::move(beat), {});
+    view.text += viewer::view();
+    view.accuracy += viewer::accuracy(*view.beat);
   } catch (const InputError& error) {
     say(fmt::format("warning: no view in the report: {}", error.what()));
     return without(error.what());
@@ -114,8 +113,8 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   text += part::cycle_part(r, plots) + part::measured_part(r) + part::pictures_part(r, say);
   text += "<h2 id=\"method\">Method</h2>\n" + part::prestress_part(r) + part::outlets_part(r);
   text += part::run_part(r) + part::summary_part(r, program);
-  if (view.drawn) text += "<h3>How exact the view in 3D is</h3>\n" + view.accuracy;
-  text += case_part(report) + viewer::end_page(plots, view.drawn);
+  if (view.beat) text += "<h3>How exact the view in 3D is</h3>\n" + view.accuracy;
+  text += case_part(report) + viewer::end_page(plots, view.beat ? &*view.beat : nullptr);
   files::write_atomically(file, text);
   return file;
 }
