@@ -84,9 +84,10 @@ std::string accuracy(const PackedBeat& beat) {
     rows.push_back({page::escaped(q.name), q.body, std::to_string(q.modes), percent(q.compression.most),
                     percent(q.compression.largest), percent(q.simplification.most),
                     fmt::format("{:.3g} {}", q.compression.range, page::escaped(q.unit))});
-  std::string text = page::table({"quantity", "on", "modes", "99.9 % of values within [% of range]",
-                                  "largest [% of range]", "simplification, 99.9 % within [% of range]", "range"},
-                                 rows);
+  std::string text = page::table(
+      {"quantity", "on", "modes", "99.9 % within [%]", "all within [%]", "simplified, 99.9 % within [%]", "range"},
+      rows,
+      "Errors of the modes and whole numbers, and of simplified surfaces, in per cent of the range of all values");
   text += fmt::format("<p>Coordinates are rounded to {:.2g} mm.", 1e3 * beat.place_step);
   for (const auto& s : beat.simplifications)
     if (s.triangles < s.triangles_before)

@@ -224,6 +224,10 @@
       taken.push([x, y, width]);
       labels[k].style.transform = `translate(${x.toFixed(0)}px, ${y.toFixed(0)}px)`;
     });
+    // On paper the picture and what lies over it keep their proportions.
+    const stage = view.parentElement.style;
+    stage.setProperty('--width', view.clientWidth);
+    stage.setProperty('--height', view.clientHeight);
     const target = 110 * scene.perPixel, power = 10 ** Math.floor(Math.log10(target));
     const length = [1, 2, 5, 10].map(f => f * power).filter(v => v <= 1.01 * target).pop();
     byId('scale').style.width = `${length / scene.perPixel}px`;
