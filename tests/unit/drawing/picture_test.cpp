@@ -139,9 +139,9 @@ TEST_F(Picture, ColoursTheSurfaceByTheArray) {
   EXPECT_FALSE(summary.time);
   const auto colours = row(0.46);
   ASSERT_EQ(colours.size(), 400U);
-  // 276 pixels high at 8 % border: the cube is 256 wide, centred in the left 344 pixels.
+  // 276 pixels high at 8 % border: the cube is 256 wide, centred in the left 332 pixels.
   EXPECT_TRUE(is_white(colours[30]) && is_white(colours[320]));
-  const auto left = colours[50], middle = colours[172], right = colours[295];
+  const auto left = colours[44], middle = colours[166], right = colours[289];
   EXPECT_GT(left[2], left[1] + 20) << "dark violet at the lowest value";
   EXPECT_GT(middle[1], middle[0] + 30) << "green between";
   EXPECT_GT(right[0], right[2] + 60) << "yellow at the highest value";
@@ -235,7 +235,7 @@ TEST_F(Picture, DrawsLinesAlongVectorsAndShowsAFocus) {
 TEST_F(Picture, SignedValuesHaveAMapAboutZero) {
   EXPECT_EQ(render(front(write_cube("cube.vtu", -1.0))).limits, (std::array<double, 2>{-1.0, 1.0}));
   const auto colours = row(0.46);
-  const auto left = colours[50], middle = colours[172], right = colours[295];
+  const auto left = colours[44], middle = colours[166], right = colours[289];
   EXPECT_GT(left[2], left[0] + 60) << "blue below zero";
   EXPECT_NEAR(middle[0], middle[2], 12) << "grey at zero";
   EXPECT_GT(right[0], right[2] + 60) << "red above it";
