@@ -8,6 +8,7 @@ try:
     from selenium.webdriver.chrome.options import Options
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By  # noqa: F401
+    from selenium.webdriver.common.keys import Keys  # noqa: F401
 except ImportError:
     print("python3-selenium is not installed")
     sys.exit(77)

@@ -117,6 +117,23 @@ void add_text(vtkRenderer& frame, const std::string& text, double x, double y, i
 
 }  // namespace
 
+std::string with_readable_unit(const std::string& name) {
+  const auto begin = name.rfind(" ["), end = name.rfind(']');
+  if (begin == std::string::npos || end != name.size() - 1 || end < begin) return name;
+  std::istringstream factors(name.substr(begin + 2, end - begin - 2));
+  std::string factor, above, below;
+  while (factors >> factor) {
+    const auto hat = factor.find('^');
+    std::string power = hat == std::string::npos ? "1" : factor.substr(hat + 1);
+    const bool divides = power.starts_with('-');
+    if (divides) power.erase(0, 1);
+    const std::string raised = power == "1" ? "" : power == "2" ? "²" : power == "3" ? "³" : fmt::format("^{}", power);
+    auto& side = divides ? below : above;
+    side = fmt::format("{}{}{}{}", side, divides ? "/" : side.empty() ? "" : " ", factor.substr(0, hat), raised);
+  }
+  return fmt::format("{} [{}{}]", name.substr(0, begin), above.empty() ? "1" : above, below);
+}
+
 ColourScale colour_scale(std::vector<double> values, bool whole_numbers, const PictureOptions& options) {
   ColourScale scale;
   if (options.limits) {
@@ -172,7 +189,7 @@ void add_colour_key(vtkRenderer& frame, const ColourScale& scale, vtkLookupTable
   if (scale.kind == ColourKind::categories) {
     bar->SetNumberOfLabels(0);
     bar->AnnotationTextScalingOff();
-    style_text(bar->GetAnnotationTextProperty(), std::max(9, letters(options, 50)));
+    style_text(bar->GetAnnotationTextProperty(), std::max(10, letters(options, 32)));
   } else {
     vtkNew<vtkDoubleArray> marks;
     for (const double mark : scale.marks) marks->InsertNextValue(mark);
@@ -187,20 +204,20 @@ void add_colour_key(vtkRenderer& frame, const ColourScale& scale, vtkLookupTable
   bar->SetPosition2(1.0 - bar_begin - 0.02, 0.66);
   bar->SetBarRatio(0.25);
   bar->SetTextPad(4);
-  style_text(bar->GetLabelTextProperty(), std::max(9, letters(options, 50)));
+  style_text(bar->GetLabelTextProperty(), std::max(10, letters(options, 32)));
   frame.AddActor2D(bar);
-  const int size = std::max(10, letters(options, 45));
+  const int size = std::max(11, letters(options, 30));
   const double room = (0.98 - bar_begin) * options.width / (letter_width * size);
-  const std::string name = options.label.empty() ? array : options.label;
+  const std::string name = options.label.empty() ? with_readable_unit(array) : options.label;
   add_text(frame, wrapped(name, static_cast<std::size_t>(std::max(6.0, room))), bar_begin + 0.01, title_begin - 0.01,
            size, options);
   if (!scale.beyond.empty())
-    add_text(frame, scale.beyond, bar_begin + 0.01, 0.12, std::max(9, letters(options, 55)), options);
+    add_text(frame, scale.beyond, bar_begin + 0.01, 0.12, std::max(10, letters(options, 36)), options);
 }
 
 void add_title(vtkRenderer& frame, const std::string& title, const PictureOptions& options) {
   if (title.empty()) return;
-  const int size = std::max(12, letters(options, 32));
+  const int size = std::max(13, letters(options, 28));
   const auto room = static_cast<std::size_t>(0.96 * options.width / (letter_width * size));
   const bool is_long = title.size() > room;
   add_text(frame, is_long ? wrapped(title, std::max(room, title.size() / 2 + 8)) : title, 0.02, 0.985,

@@ -24,10 +24,13 @@ struct ColourScale {
 /// Of all values that will be in sight, in the order in which they are drawn.
 ColourScale colour_scale(std::vector<double> values, bool whole_numbers, const PictureOptions& options);
 
+/// "velocity [cm s^-1]", as files have to write it, is "velocity [cm/s]" to readers.
+std::string with_readable_unit(const std::string& name);
+
 void fill_table(vtkLookupTable& table, const ColourScale& scale);
 
 /// Part of the picture's width that is left of the key, and of its height that is below the title.
-inline constexpr double bar_begin = 0.86, title_begin = 0.92;
+inline constexpr double bar_begin = 0.83, title_begin = 0.92;
 
 /// The key at the right of the picture; `array`: what the values are called unless the options say.
 void add_colour_key(vtkRenderer& frame, const ColourScale& scale, vtkLookupTable& table, const std::string& array,

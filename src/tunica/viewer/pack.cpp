@@ -43,7 +43,7 @@ class Store {
   std::string deflated() const {
     uLongf size = compressBound(bytes_.size());
     std::vector<std::uint8_t> packed(size);
-    if (compress2(packed.data(), &size, bytes_.data(), bytes_.size(), 9) != Z_OK)
+    if (compress2(packed.data(), &size, bytes_.data(), bytes_.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
       throw SolverError("the view cannot be packed: there is not enough memory");
     packed.resize(size);
     return drawing::page::base64(packed);
@@ -81,11 +81,14 @@ json range_of(const Quantity& q) {
       values.push_back(n == 1 ? frame[i] : static_cast<float>(std::sqrt(squares)));
     }
   if (values.empty()) return {0, 1, 0, 1};
-  std::sort(values.begin(), values.end());
+  const auto ends = std::minmax_element(values.begin(), values.end());
+  const float least = *ends.first, largest = *ends.second;
   const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    return values[static_cast<std::size_t>(place)];
   };
-  return {at(0.005), at(0.995), values.front(), values.back()};
+  return {at(0.005), at(0.995), least, largest};
 }
 
 void refuse_what_is_not_finite(const Body& body, const Quantity& q) {

@@ -76,10 +76,7 @@ std::string begin_page(const std::string& title) {
   return page::begin(title, head);
 }
 
-std::string view(const PackedBeat& beat) {
-  return std::string(assets::markup().text) + data_element("beat-head", beat.head, "application/json") +
-         data_element("beat-data", beat.data, "text/plain");
-}
+std::string view() { return std::string(assets::markup().text); }
 
 std::string accuracy(const PackedBeat& beat) {
   std::vector<std::vector<std::string>> rows;
@@ -87,9 +84,10 @@ std::string accuracy(const PackedBeat& beat) {
     rows.push_back({page::escaped(q.name), q.body, std::to_string(q.modes), percent(q.compression.most),
                     percent(q.compression.largest), percent(q.simplification.most),
                     fmt::format("{:.3g} {}", q.compression.range, page::escaped(q.unit))});
-  std::string text = page::table({"quantity", "on", "modes", "99.9 % of values within [% of range]",
-                                  "largest [% of range]", "simplification, 99.9 % within [% of range]", "range"},
-                                 rows);
+  std::string text = page::table(
+      {"quantity", "on", "modes", "99.9 % within [%]", "all within [%]", "simplified, 99.9 % within [%]", "range"},
+      rows,
+      "Errors of the modes and whole numbers, and of simplified surfaces, in per cent of the range of all values");
   text += fmt::format("<p>Coordinates are rounded to {:.2g} mm.", 1e3 * beat.place_step);
   for (const auto& s : beat.simplifications)
     if (s.triangles < s.triangles_before)
@@ -108,14 +106,17 @@ std::string plot(const std::vector<Plot>& plots, std::size_t index, const std::s
   return fmt::format("<figure data-plot=\"{}\">{}<figcaption>{}</figcaption></figure>\n", index, svg, caption);
 }
 
-std::string end_page(const std::vector<Plot>& plots, bool with_view) {
+std::string end_page(const std::vector<Plot>& plots, const PackedBeat* shown) {
   json data = json::array();
   for (const auto& p : plots) data.push_back(data_of(p));
   std::string text = plots.empty() ? "" : data_element("plots", data.dump(), "application/json");
   text += script(assets::plots());
-  if (with_view)
+  if (shown != nullptr) {
+    text += data_element("beat-head", shown->head, "application/json") +
+            data_element("beat-data", shown->data, "text/plain");
     for (const auto& asset : {assets::three(), assets::beat(), assets::scene(), assets::still(), assets::panel()})
       text += script(asset);
+  }
   return text + page::end();
 }
 

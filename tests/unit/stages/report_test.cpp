@@ -85,5 +85,18 @@ TEST(Report, OpensOnWhatWasFoundBesideTargets) {
   place(page, "default-src 'none'; script-src 'sha256-");
 }
 
+TEST(Report, ListsWhatTheRunWasSetTo) {
+  const SharedFolder folder(MPI_COMM_SELF);
+  folder.write("stage.json", R"({"status": "done", "seconds": 1.5, "ranks": 1, "time": "", "program": {},
+      "inputs": {"settings": {"fluid.density": "1060"}, "files": {}}})");
+  ReportCase c;
+  c.case_file = folder.write("case.yaml", "{}");
+  c.stages["run"] = folder.path();
+  c.settings.pictures = false;
+  c.output = folder.path();
+  const std::string page = test::slurp(report_to_file(c, {"1", "abc"}, true, [](const std::string&) {}));
+  place(page, "<td>fluid.density</td><td>1060</td>");
+}
+
 }  // namespace
 }  // namespace tunica::stages

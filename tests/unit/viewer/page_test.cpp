@@ -127,7 +127,8 @@ TEST(ViewPage, RunsItsOwnScriptsAlone) {
   Beat beat = small_beat(hostile);
   beat.labels = {{hostile, "tear", {}}};
   const std::vector<Plot> plots = {{hostile, "time [s]", "flow [ml/s]", true, {{hostile, {0, 1}, {1, 2}, 0}}}};
-  const std::string page = begin_page(hostile) + view(pack(beat, {})) + plot(plots, 0, "flow") + end_page(plots, true);
+  const PackedBeat packed = pack(beat, {});
+  const std::string page = begin_page(hostile) + view() + plot(plots, 0, "flow") + end_page(plots, &packed);
   EXPECT_EQ(page.find(hostile), std::string::npos);
   EXPECT_NE(page.find("default-src 'none'; script-src 'sha256-"), std::string::npos);
   EXPECT_EQ(page.find("'unsafe-eval'"), std::string::npos);
@@ -137,6 +138,7 @@ TEST(ViewPage, RunsItsOwnScriptsAlone) {
     EXPECT_EQ(page.substr(at, page.find('>', at) - at).find("src="), std::string::npos);
   }
   EXPECT_EQ(scripts, 3U + 6U);  // data; three.js, four of the viewer, the plots
+  EXPECT_GT(page.find("id=\"beat-data\""), page.find("<figure"));  // what is read by people stands before it
 }
 
 }  // namespace

@@ -73,12 +73,6 @@ class Answers {
   std::vector<std::vector<std::string>> rows_;
 };
 
-std::string readable(std::string name) {
-  if (name.starts_with("lumen_")) name = name.substr(6);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return page::escaped(name);
-}
-
 /// Pressure at the inlet beside its targets, which `outlets` has been given.
 void add_pressures(const Results& r, Answers& answers) {
   const double tolerance = r.tuning.is_object() ? r.tuning.value("tolerance", 0.02) : 0;
@@ -144,7 +138,7 @@ void add_lumens(const Results& r, Answers& answers) {
     answers.add(name + ": into the false lumen in a beat", at(t, "volume_into_false_lumen_ml"), "ml", "", t);
     answers.add(name + ": out of it", at(t, "volume_out_of_false_lumen_ml"), "ml", "", t);
   }
-  answers.add("ejection fraction of the false lumen", at(lumen, "ejection_fraction"), "1",
+  answers.add("ejection fraction of the false lumen", at(lumen, "ejection_fraction"), "",
               "false_lumen/ejection_fraction", lumen, &stable_lumen);
   answers.add("largest displacement of the flap since the start", at(flap, "largest_displacement_mm"), "mm",
               "flap/largest_displacement_mm", flap, &moving_lumens);
@@ -217,7 +211,7 @@ std::string resolution_text(const Results& r) {
   std::string dissipated;
   for (const auto& p : at(r.post, "numerical_dissipation/parts"))
     if (p.value("above_limit", false))
-      dissipated += (dissipated.empty() ? "" : ", ") + page::escaped(p.value("part", ""));
+      dissipated += (dissipated.empty() ? "" : ", ") + readable(p.value("part", ""));
   if (at(r.post, "numerical_dissipation").is_object())
     item(dissipated.empty(), dissipated.empty() ? "The flow is not damped by the scheme" : "The mesh damps the flow",
          dissipated.empty() ? "it takes less than half of what viscosity takes"
@@ -262,10 +256,10 @@ std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots
   add_difference(r, lumens);
   add_lumens(r, lumens);
   add_wall(r, lumens);
-  return "<h2 id=\"answer\">What was found</h2>\n" +
+  return "<h2 id=\"answer\">What was found</h2>\n<div class=\"columns\">" +
          pressures.table("Pressure at the inlet and shares of the outflow, of the computed beat") +
          lumens.table("Lumens, flap and wall shear") + stress_table(r) + "<h3>How far it can be trusted</h3>\n<ul>\n" +
-         periodic_text(plots, r.post) + resolution_text(r) + "</ul>\n";
+         periodic_text(plots, r.post) + resolution_text(r) + "</ul></div>\n";
 }
 
 }  // namespace tunica::stages::report

@@ -41,13 +41,6 @@ std::string list_table(const Results& r, const std::string& path, const Columns&
   return drawing::page::table(head, rows);
 }
 
-/// "lumen_left_renal" -> "left renal".
-std::string readable(std::string name) {
-  if (name.starts_with("lumen_")) name = name.substr(6);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return drawing::page::escaped(name);
-}
-
 /// Flow the way that blood goes, as in the curves: in at the inlet, out elsewhere.
 std::string openings(const Results& r) {
   const json list = at(r.post, "openings");
@@ -142,8 +135,10 @@ std::string wall_shear(const Results& r) {
   for (const auto& [name, key] : {std::pair{"TAWSS [Pa]", "tawss_Pa"}, {"OSI", "osi"}, {"RRT [1/Pa]", "rrt_1_Pa"}}) {
     auto& cells = rows.emplace_back(std::vector<std::string>{name});
     for (const char* share : {"mean", "p5", "p50", "p95", "p99"})
-      cells.push_back(figure(at(shear, fmt::format("{}/{}", key, share))) +
-                      band(r, fmt::format("wall_shear/{}/{}", key, share)) + mark(shear));
+      if (const json value = at(shear, fmt::format("{}/{}", key, share)); value.is_number())
+        cells.push_back(figure(value) + band(r, fmt::format("wall_shear/{}/{}", key, share)) + mark(shear));
+      else
+        cells.push_back("–");
   }
   return "<h3>Wall shear</h3>\n" +
          drawing::page::table({"by area of the wall", "mean", "5 %", "median", "95 %", "99 %"}, rows);

@@ -37,6 +37,8 @@ std::string mark(const json& of);
 /// a warning and the meaning of the mark where it is too much.
 std::string dissipation_table(const json& dissipation);
 
+/// "lumen_left_renal" -> "left renal", as HTML.
+std::string readable(std::string name);
 /// A line that says what the page lacks, and why.
 std::string missing(const std::string& what, const std::string& why);
 /// Drawings (.svg) of a folder with a line below each; nothing for those that are not there.

@@ -97,6 +97,8 @@ class Album {
   files::Say say_;
 };
 
+std::string when_of(const Scene& scene) { return scene.peak ? "at peak pressure" : "at the end"; }
+
 void draw_fields(const Scene& scene, Album& album) {
   const auto of = [&](const std::vector<std::string>& inputs, const std::string& array) {
     drawing::PictureOptions options;
@@ -107,7 +109,7 @@ void draw_fields(const Scene& scene, Album& album) {
     if (scene.plane) options.view = scene.plane->normal;
     return options;
   };
-  const std::string when = scene.peak ? "at peak pressure" : "at the end";
+  const std::string when = when_of(scene);
   if (!scene.lumen.empty()) {
     album.add(of(scene.lumen, "pressure"), "Pressure of the blood " + when);
     auto lines = of(scene.lumen, "");
@@ -116,6 +118,7 @@ void draw_fields(const Scene& scene, Album& album) {
     if (scene.plane) {
       auto cut = of(scene.lumen, "velocity");
       cut.clip = scene.plane;
+      cut.percentile = 100;  // it has no peaks at edges
       album.add(cut, "Velocity in a plane along the aorta, " + when);
     }
   }
@@ -131,20 +134,25 @@ void draw_fields(const Scene& scene, Album& album) {
 }
 
 void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
+  struct Cut {
+    const std::vector<std::string>& inputs;
+    const char *array, *title;
+    double percentile;
+  };
   for (const auto& [name, plane] : scene.cuts)
-    for (const auto& [inputs, array] :
-         {std::pair{&scene.lumen, "velocity"}, std::pair{&scene.wall, "von Mises stress"}}) {
-      if (inputs->empty()) continue;
+    for (const auto& [inputs, array, title, percentile] :
+         {Cut{scene.lumen, "velocity", "Velocity", 100}, Cut{scene.wall, "von Mises stress", "Stress", shown}}) {
+      if (inputs.empty()) continue;
       drawing::PictureOptions options;
-      options.inputs = *inputs;
+      options.inputs = inputs;
       options.array = array;
       options.time = scene.peak;
-      options.percentile = shown;
+      options.percentile = percentile;
       options.clip = plane;
       options.view = plane.normal;
       options.up = std::abs(unit(plane.normal)[2]) > 0.8 ? Vec3<double>{{0, 1, 0}} : Vec3<double>{{0, 0, 1}};
       options.focus = drawing::Focus{plane.origin, 0.03 / metres_per_unit};
-      album.add(options, fmt::format("{} across the vessel at {}", array, name));
+      album.add(options, fmt::format("{} across the vessel at {}, {}", title, readable(name), when_of(scene)));
     }
 }
 

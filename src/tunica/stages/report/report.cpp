@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -45,12 +46,12 @@ constexpr const char* contents =
 /// The beat in 3D; a case whose fields cannot be shown says why.
 struct View {
   std::string text, accuracy;
-  bool drawn = false;
+  std::optional<viewer::PackedBeat> beat;
 };
 
 View view_of(const stages::report::Results& r, const BeatSource& source, const files::Say& say) {
   if (!r.report.settings.view) return {};
-  View view{"<h2 id=\"view3d\">The beat in 3D</h2>\n", "", false};
+  View view{"<h2 id=\"view3d\">The beat in 3D</h2>\n", "", {}};
   const auto without = [&](const std::string& why) {
     view.text += stages::report::missing("The view", why);
     return view;
@@ -61,10 +62,9 @@ View view_of(const stages::report::Results& r, const BeatSource& source, const f
     auto beat = collect_beat(source, say);
     for (const auto& remark : beat.remarks) view.accuracy += stages::report::missing("The view", remark);
     say("view: modes and page");
-    const auto packed = viewer::pack(std::move(beat), {});
-    view.text += viewer::view(packed);
-    view.accuracy += viewer::accuracy(packed);
-    view.drawn = true;
+    view.beat = viewer::pack(std::move(beat), {});
+    view.text += viewer::view();
+    view.accuracy += viewer::accuracy(*view.beat);
   } catch (const InputError& error) {
     say(fmt::format("warning: no view in the report: {}", error.what()));
     return without(error.what());
@@ -110,12 +110,13 @@ fs::path report_to_file(const ReportCase& report, const artifacts::ProgramVersio
   const View view = view_of(r, source, say);
   std::string text = viewer::begin_page(report.title.empty() ? "Report" : report.title) +
                      fmt::format(contents, view.text.empty() ? "" : "<a href=\"#view3d\">3D</a>");
-  text += part::answer_part(r, plots) + view.text + part::mesh_part(r) + part::fibres_part(r);
+  text +=
+      part::answer_part(r, plots) + view.text + "<div class=\"columns\">\n" + part::mesh_part(r) + part::fibres_part(r);
   text += part::cycle_part(r, plots) + part::measured_part(r) + part::pictures_part(r, say);
   text += "<h2 id=\"method\">Method</h2>\n" + part::prestress_part(r) + part::outlets_part(r);
   text += part::run_part(r) + part::summary_part(r, program);
-  if (view.drawn) text += "<h3>How exact the view in 3D is</h3>\n" + view.accuracy;
-  text += case_part(report) + viewer::end_page(plots, view.drawn);
+  if (view.beat) text += "<h3>How exact the view in 3D is</h3>\n" + view.accuracy;
+  text += case_part(report) + "</div>\n" + viewer::end_page(plots, view.beat ? &*view.beat : nullptr);
   files::write_atomically(file, text);
   return file;
 }
@@ -203,6 +204,12 @@ std::string dissipation_table(const json& dissipation) {
   if (const auto warning = warning_of(d))
     text += missing("Warning", *warning + ". Figures that lie there bear the mark †");
   return text;
+}
+
+std::string readable(std::string name) {
+  if (name.starts_with("lumen_")) name = name.substr(6);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return drawing::page::escaped(name);
 }
 
 std::string missing(const std::string& what, const std::string& why) {

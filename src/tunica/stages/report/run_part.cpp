@@ -49,9 +49,9 @@ std::string curves(const files::CsvColumns& table, const std::string& what, cons
 std::string curve(const files::CsvColumns& table, const std::string& column, const std::string& title) {
   const std::size_t k = column_with(table, column), time = column_with(table, "time");
   if (k == table.headers.size() || time == table.headers.size() || table.columns[time].size() < 2) return "";
-  return drawing::page::drawing(
-      drawing::draw_plot({{.name = "", .x = table.columns[time], .y = table.columns[k]}},
-                         {.title = title, .x_label = table.headers[time], .y_label = table.headers[k], .width = 560}));
+  return drawing::page::drawing(drawing::draw_plot(
+      {{.name = "", .x = table.columns[time], .y = table.columns[k]}},
+      {.title = title, .x_label = table.headers[time], .y_label = table.headers[k], .width = 420, .height = 320}));
 }
 
 /// What a history lacks of its steps.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <regex>
 
 #include "tunica/config/description.hpp"
 #include "tunica/drawing/page.hpp"
@@ -46,7 +47,7 @@ std::string settings_table(const Results& r) {
   const auto run = r.records.find("run");
   if (run == r.records.end()) return "";
   std::vector<std::vector<std::string>> rows;
-  const json settings = at(run->second, "settings");
+  const json settings = at(at(run->second, "inputs"), "settings");
   for (const auto& [key, value] : settings.items())
     rows.push_back({drawing::page::escaped(key), drawing::page::escaped(value.get<std::string>())});
   return "<details class=\"fine\"><summary>All settings of the run, in SI units</summary>\n" +
@@ -86,7 +87,7 @@ std::string histogram(const json& counts, double bin, const std::string& title, 
     place += bin;
   }
   return drawing::page::drawing(drawing::draw_plot(
-      {bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
+      {bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 420, .height = 320}));
 }
 
 }  // namespace
@@ -109,10 +110,12 @@ std::string mesh_part(const Results& r) {
   if (r.mesh.is_null()) return text + missing("Quality of the mesh", "the case has no stage `mesh`, or it is not done");
   const fs::path page = r.folder("mesh") / "report.html";
   if (!fs::exists(page)) return text + missing("Quality of the mesh", "report.html is not in the folder of the mesh");
+  static const std::regex level("<(/?)h2");  // of that page
   return text + "<details><summary>" +
          fmt::format("{} tetrahedra, smallest dihedral angle {}°; pictures, shapes, regions, tears",
                      figure(at(r.mesh, "tetrahedra")), figure(r.mesh["shapes"]["smallest_dihedral_deg"], 3)) +
-         "</summary>\n" + drawing::page::body(config::read_text(page)) + "</details>\n";
+         "</summary>\n" + std::regex_replace(drawing::page::body(config::read_text(page)), level, "<$1h3") +
+         "</details>\n";
 }
 
 std::string fibres_part(const Results& r) {

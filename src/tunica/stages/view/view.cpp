@@ -49,9 +49,9 @@ void write_view(const ViewRequest& request, const files::Say& say) {
   say("view: modes and page");
   const auto packed = viewer::pack(std::move(beat), request.packing);
   std::string text =
-      viewer::begin_page(title) + viewer::view(packed) + plots_of(plots) + "<h2>How exact the view is</h2>\n";
+      viewer::begin_page(title) + viewer::view() + plots_of(plots) + "<h2>How exact the view is</h2>\n";
   for (const auto& remark : remarks) text += fmt::format("<p class=\"missing\">{}.</p>\n", page::escaped(remark));
-  files::write_atomically(request.output, text + viewer::accuracy(packed) + viewer::end_page(plots, true));
+  files::write_atomically(request.output, text + viewer::accuracy(packed) + viewer::end_page(plots, &packed));
 }
 
 }  // namespace tunica::stages

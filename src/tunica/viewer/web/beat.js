@@ -111,7 +111,8 @@ const tunica = {};
   /** Throws where the browser cannot inflate or the data are damaged. */
   tunica.readBeat = async () => {
     const head = JSON.parse(byId('beat-head').textContent);
-    const packed = Uint8Array.from(atob(byId('beat-data').textContent.trim()), c => c.charCodeAt(0));
+    const text = atob(byId('beat-data').textContent.trim()), packed = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
     const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
     const beat = { ...head, frames: head.times.length };

@@ -3,6 +3,10 @@
 (async () => {
   const byId = id => document.getElementById(id);
   if (!byId('viewer')) return;
+  // The page is painted first: nothing of it waits for the beat.
+  const message = byId('viewer-message');
+  message.textContent = 'The beat is being read …';
+  await new Promise(go => { requestAnimationFrame(() => setTimeout(go)); setTimeout(go, 500); });
   const began = performance.now();
   const beat = await tunica.readBeat();
   const canvas = byId('view');
@@ -14,13 +18,12 @@
     canvas.replaceWith(plain);
     scene = new tunica.Still(plain, beat);
     drawn = 'canvas';
-    byId('viewer-message').textContent = 'There is no WebGL here: a plain drawing, which turns slowly.';
   }
   const view = byId('view');
   const kinds = new Set(beat.bodies.flatMap(b => b.groups.map(g => g.kind)));
   const state = { quantity: '', opacity: { outer: 1, inner: 1, opening: 1 }, hidden: new Set(), warp: 1, range: [0, 1], plane: null, sections: () => false, families: new Set(), regions: null };
   const clock = { at: 0, playing: false };
-  let dirty = true, probed = null, last = 0;
+  let dirty = true, probed = null, last = 0, moved = 0, fine = false;
 
   // --- quantities: one entry for those that surface and sections have in common ---
   const quantities = new Map();
@@ -221,6 +224,10 @@
       taken.push([x, y, width]);
       labels[k].style.transform = `translate(${x.toFixed(0)}px, ${y.toFixed(0)}px)`;
     });
+    // On paper the picture and what lies over it keep their proportions.
+    const stage = view.parentElement.style;
+    stage.setProperty('--width', view.clientWidth);
+    stage.setProperty('--height', view.clientHeight);
     const target = 110 * scene.perPixel, power = 10 ** Math.floor(Math.log10(target));
     const length = [1, 2, 5, 10].map(f => f * power).filter(v => v <= 1.01 * target).pop();
     byId('scale').style.width = `${length / scene.perPixel}px`;
@@ -248,7 +255,16 @@
       refresh();
     }
     last = now;
-    if (dirty) { dirty = false; scene.draw(); overlay(); }
+    if (dirty) {
+      dirty = fine = false;
+      moved = now;
+      scene.draw();
+      overlay();
+    } else if (!fine && now - moved > 250) {
+      fine = true;
+      scene.draw(true);
+    }
+    view.dataset.rests = fine;
     requestAnimationFrame(loop);
   }
 
@@ -295,7 +311,7 @@
   byId('reset').onclick = () => { scene.look(beat.view, beat.up); dirty = true; };
   byId('side').onclick = () => { scene.turn(Math.PI / 2, 0); scene.fit(); dirty = true; };
   const save = (blob, name) => { const a = document.createElement('a'); a.href = URL.createObjectURL(blob); a.download = name; a.click(); setTimeout(() => URL.revokeObjectURL(a.href), 1e4); };
-  byId('png').onclick = () => { scene.draw(); view.toBlob(blob => save(blob, `${state.quantity.replaceAll(' ', '_')}.png`)); };
+  byId('png').onclick = () => { scene.draw(true); view.toBlob(blob => save(blob, `${state.quantity.replaceAll(' ', '_')}.png`)); };
   byId('video').hidden = !(view.captureStream && window.MediaRecorder) || beat.frames < 2;
   byId('video').onclick = () => {
     const seconds = +byId('speed').value, recorder = new MediaRecorder(view.captureStream(25), { mimeType: 'video/webm' }), parts = [];
@@ -310,13 +326,13 @@
 
   // --- pointers and keys ---
   const pointers = new Map();
-  let moved = 0;
-  view.onpointerdown = e => { view.setPointerCapture(e.pointerId); pointers.set(e.pointerId, [e.clientX, e.clientY]); if (pointers.size === 1) moved = 0; };
+  let way = 0;
+  view.onpointerdown = e => { view.setPointerCapture(e.pointerId); pointers.set(e.pointerId, [e.clientX, e.clientY]); if (pointers.size === 1) way = 0; };
   view.onpointermove = e => {
     const before = pointers.get(e.pointerId);
     if (!before) return;
     const dx = e.clientX - before[0], dy = e.clientY - before[1];
-    moved += Math.abs(dx) + Math.abs(dy);
+    way += Math.abs(dx) + Math.abs(dy);
     if (pointers.size === 2) {
       const other = [...pointers].find(([id]) => id !== e.pointerId)[1], far = p => Math.hypot(p[0] - other[0], p[1] - other[1]);
       scene.zoom *= far([e.clientX, e.clientY]) / Math.max(1, far(before));
@@ -329,7 +345,7 @@
   view.onpointerup = view.onpointercancel = e => {
     const single = pointers.size === 1;
     pointers.delete(e.pointerId);
-    if (e.type === 'pointerup' && single && moved < 5) { const box = view.getBoundingClientRect(); probe(e.clientX - box.left, e.clientY - box.top); }
+    if (e.type === 'pointerup' && single && way < 5) { const box = view.getBoundingClientRect(); probe(e.clientX - box.left, e.clientY - box.top); }
   };
   view.oncontextmenu = e => e.preventDefault();
   view.addEventListener('wheel', e => { e.preventDefault(); scene.zoom *= Math.exp(-0.0012 * e.deltaY); dirty = true; }, { passive: false });
@@ -354,7 +370,8 @@
     for (let k = 0; k < count; ++k) { clock.at = k % beat.frames; refresh(); scene.draw(); if (scene.renderer) { const gl = scene.renderer.getContext(); gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); } }
     return (performance.now() - start) / count;
   };
-  Object.assign(document.body.dataset, { viewer: 'ready', drawn, seconds: ((performance.now() - began) / 1000).toFixed(3) });
+  Object.assign(document.body.dataset, { viewer: 'ready', drawn, seconds: ((performance.now() - began) / 1000).toFixed(3), after: (performance.now() / 1000).toFixed(3) });
+  message.textContent = drawn === 'WebGL' ? '' : 'There is no WebGL here: a plain drawing, which turns slowly.';
 })().catch(error => {
   document.body.dataset.viewer = 'failed';
   document.getElementById('viewer-message').textContent = `The view cannot be shown: ${error.message}`;

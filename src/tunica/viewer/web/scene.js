@@ -27,13 +27,31 @@
   const has = (of, kind) => of === 'inside' ? kind === 'inner' : of === 'wall' ? ['outer', 'inner', 'end', 'wall section'].includes(kind)
     : ['inner', 'opening', 'section'].includes(kind);
 
+  /** Is the picture drawn by the processor? Then a quarter of the pixels is drawn while things move, and all of them when they rest. */
+  function isSoftware(gl) {
+    const names = gl.getExtension('WEBGL_debug_renderer_info');
+    return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  }
+
+  /** Samples within a pixel cost a processor three quarters of its time, so it gets a context without: whether there is one is known by asking. */
+  function contextOf(canvas) {
+    const asked = document.createElement('canvas').getContext('webgl'), antialias = !!asked && !isSoftware(asked);
+    asked?.getExtension('WEBGL_lose_context')?.loseContext();
+    const context = canvas.getContext('webgl', { antialias, preserveDrawingBuffer: true, alpha: true });
+    if (!context) throw new Error('there is no WebGL');
+    return context;
+  }
+
   class Scene {
     constructor(canvas, beat) {
       this.canvas = canvas;
       this.beat = beat;
-      this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true, alpha: true });
+      const context = contextOf(canvas);
+      this.slow = isSoftware(context);
+      this.renderer = new THREE.WebGLRenderer({ canvas, context });
       this.renderer.setClearColor(0x000000, 0);
       this.scene = new THREE.Scene();
+      this.now = { time: 0, name: '' };
       this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1);
       this.map = new THREE.DataTexture(new Uint8Array(4 * 256), 256, 1, THREE.RGBAFormat);
       this.map.minFilter = this.map.magFilter = THREE.LinearFilter;
@@ -111,9 +129,17 @@
       this.map.needsUpdate = true;
     }
 
-    /** Motion, and values of the quantity that is shown, at a time in frames. */
+    /** The instant in frames and the quantity; setLook() brings up what is seen. */
     setTime(time, name) {
-      for (const body of this.beat.bodies) {
+      this.now = { time, name };
+      for (const body of this.beat.bodies) body.stale = true;
+    }
+
+    /** Motion, and values of the quantity that is shown, of the bodies that are seen. */
+    bringUp() {
+      const { time, name } = this.now;
+      for (const body of new Set(this.meshes.filter(m => m.visible && m.userData.body.stale).map(m => m.userData.body))) {
+        body.stale = false;
         if (body.motion && body.motion.changes) {
           body.motion.evaluate(time, this.beat.frames, body.displacement);
           body.geometry.attributes.d.needsUpdate = true;
@@ -127,7 +153,6 @@
             body.geometry.attributes.s.needsUpdate = true;
           }
       }
-      this.moveLines();
     }
 
     /** `state`: quantity, opacity by kind, hidden regions, section, plane, warp, range, families of lines, colours of regions. */
@@ -148,7 +173,7 @@
         mesh.visible = section ? state.sections(group) : opacity > 0.01 && !state.hidden.has(group.name);
         mesh.material.transparent = opacity < 1;
         mesh.material.depthWrite = opacity >= 1;
-        mesh.renderOrder = opacity < 1 ? 5 : q ? 1 : 0;
+        mesh.renderOrder = opacity < 1 ? 5 : group.kind === 'outer' ? 0 : 1;  // what hides most first
         // Where a coloured and a grey surface coincide the coloured one is seen.
         mesh.material.polygonOffset = !section;
         mesh.material.polygonOffsetFactor = q ? 1 : 2;
@@ -159,6 +184,7 @@
         drawn.visible = state.families.has(name) && state.opacity[kind] > 0.3 && !state.hidden.has(region);
         drawn.material.uniforms.cut.value = state.plane ? 1 : 0;
       }
+      this.bringUp();
       this.moveLines();
     }
 
@@ -192,9 +218,9 @@
     /** By so many pixels. */
     pan(x, y) { this.shift[0] -= x * this.perPixel; this.shift[1] += y * this.perPixel; }
 
-    place() {
+    place(fine) {
       const width = this.canvas.clientWidth, height = Math.max(1, this.canvas.clientHeight);
-      const ratio = Math.min(window.devicePixelRatio || 1, 2);
+      const whole = Math.min(window.devicePixelRatio || 1, 2), ratio = this.slow ? (fine ? 2 : 1) : whole;
       if (this.width !== width || this.height !== height || this.ratio !== ratio) {
         [this.width, this.height, this.ratio] = [width, height, ratio];
         this.renderer.setPixelRatio(ratio);
@@ -209,8 +235,9 @@
       this.camera.updateMatrixWorld();
     }
 
-    draw() {
-      this.place();
+    /** `fine`: with all pixels, for pictures that rest. */
+    draw(fine = false) {
+      this.place(fine);
       this.renderer.render(this.scene, this.camera);
     }
 
