@@ -520,6 +520,15 @@ TEST(Translate, TakesDomainsInAList) {
   EXPECT_FALSE(file.regions.has_value());
 }
 
+TEST(Translate, RefusesDomainsThatThePeersCannotHave) {
+  const std::string keys = "<Density>1</Density><Elasticity_modulus>1e5</Elasticity_modulus></Domain>";
+  for (const char* id : {"32", "100000000", "-1", "x"})
+    EXPECT_TRUE(has(refused(wall("<Domain id=\"" + std::string(id) + "\">" + keys, pressure, "struct",
+                                 "<Domain_file_path>domains.dat</Domain_file_path>")),
+                    "no whole number from 0 to 31"))
+        << id;
+}
+
 TEST(Translate, StartsFromADisplacedWallBesideBlood) {
   const auto translation = translate(read_xml(coupled("<Initial_displacements_file_path>u.vtu"
                                                       "</Initial_displacements_file_path>"),
