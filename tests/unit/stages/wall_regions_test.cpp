@@ -67,6 +67,7 @@ TEST_F(FibreAngle, MakesClassesWhereItDiffers) {
 TEST_F(FibreAngle, RegionsAreWrittenByDomainAndClass) {
   mesh_io::write_simvascular(folder.path() / "wall", box, mesh::RegionKind::wall, 1.0);
   case_file::MeshSettings meshes;
+  meshes.metres_per_unit = 1.0;
   meshes.wall.emplace().simvascular = folder.path() / "wall";
   FibreAngles angles{.angles = {0.1, 0.2}, .class_of = {}};
   std::string list;
