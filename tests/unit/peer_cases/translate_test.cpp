@@ -502,6 +502,8 @@ TEST(Translate, GivesEveryClassOfFibreAnglesARegion) {
   EXPECT_TRUE(has(text, "mean_angle: 0.5 rad\n"));
   EXPECT_TRUE(has(text, "mean_angle: 1.25 rad\n"));
   EXPECT_TRUE(has(joined(looked.remarks.changed), "is that of 2 classes of elements"));
+  EXPECT_TRUE(
+      has(joined(looked.remarks.changed), "solver.xml:1 Fiber_direction_file_path: the regions of the elements"));
   ASSERT_TRUE(looked.regions.has_value());
   EXPECT_TRUE(looked.regions->domains.empty());
 }
