@@ -89,6 +89,9 @@ bool find_equations(Context& context, PosedProblem& problem) {
   return problem.main != nullptr;
 }
 
+/// The peers keep domains as bits of a number.
+constexpr int largest_domain = 31;
+
 std::optional<int> integer(const std::string& text) {
   if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
   return std::stoi(text);
@@ -110,9 +113,11 @@ void find_domains(Context& context, PosedProblem& problem) {
   }
   for (const Entry* domain : domains) {
     const auto id = integer(domain->label);
-    if (!id) {
-      context.refuse(*domain, fmt::format("has the id `{}`, no whole number", text::printable(domain->label)),
-                     "write the number that Add_mesh gives it");
+    if (!id || *id > largest_domain) {
+      context.refuse(
+          *domain,
+          fmt::format("has the id `{}`, no whole number from 0 to {}", text::printable(domain->label), largest_domain),
+          "write the number that Add_mesh gives it");
       continue;
     }
     const std::string name = context.text(*domain, "Equation", problem.coupled() ? "" : problem.main->label);

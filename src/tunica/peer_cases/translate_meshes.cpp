@@ -29,7 +29,8 @@ void translate_regions(Context& context, const PosedProblem& problem, const Entr
   const WallParts parts = wall_parts(context, problem);
   if (parts.regions.empty()) return;
   const Entry* domains = mesh.find("Domain_file_path");
-  const std::string where = domains != nullptr ? domains->where() : context.fibres->where;
+  const std::string where =
+      domains != nullptr ? domains->where() : mesh.all("Fiber_direction_file_path").back()->where();
   const std::string name = parts.made ? "REGION" : "DOMAIN_ID";
   auto& array = section.section("arrays", "").section(name, where);
   if (parts.made) {

@@ -526,12 +526,13 @@ TEST_F(OverAFace, ALineIsIntegratedExactly) {
     const auto line =
         table(tube, "tx,ty,tz", [&](const auto& x) { return std::to_string(2 * x[2] / length) + ",0,0"; });
     const Bound b(tube, input(bc::Free{}));
-    const auto found = loads(tube, bc::Traction{.over_face = line}),
+    // Without the backflow of the openings.
+    const auto none = loads(tube, bc::Free{}), found = loads(tube, bc::Traction{.over_face = line}),
                one = loads(tube, bc::Traction{.vector = {{1, 0, 0}}});
     double sums[3] = {};
     for (std::int32_t i = 0; i < b.mesh.owned_nodes; ++i) {
-      sums[0] += found[at(i)], sums[1] += one[at(i)];
-      sums[2] += found[at(i)] * b.mesh.points[i][2];
+      sums[0] += found[at(i)] - none[at(i)], sums[1] += one[at(i)] - none[at(i)];
+      sums[2] += (found[at(i)] - none[at(i)]) * b.mesh.points[i][2];
     }
     parallel::global_sum(MPI_COMM_WORLD, sums);
     EXPECT_NEAR(sums[0], sums[1], 1e-6 * std::abs(sums[1]));

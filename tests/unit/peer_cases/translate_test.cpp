@@ -502,6 +502,8 @@ TEST(Translate, GivesEveryClassOfFibreAnglesARegion) {
   EXPECT_TRUE(has(text, "mean_angle: 0.5 rad\n"));
   EXPECT_TRUE(has(text, "mean_angle: 1.25 rad\n"));
   EXPECT_TRUE(has(joined(looked.remarks.changed), "is that of 2 classes of elements"));
+  EXPECT_TRUE(
+      has(joined(looked.remarks.changed), "solver.xml:1 Fiber_direction_file_path: the regions of the elements"));
   ASSERT_TRUE(looked.regions.has_value());
   EXPECT_TRUE(looked.regions->domains.empty());
 }
@@ -518,6 +520,15 @@ TEST(Translate, TakesDomainsInAList) {
   const auto file = translated(wall(two, pressure, "struct", "<Domain_file_path>domains.vtu</Domain_file_path>"));
   EXPECT_TRUE(has(plain(file), "file: domains.vtu\n    region_array: DOMAIN_ID\n    regions:\n      domain_1: 1\n"));
   EXPECT_FALSE(file.regions.has_value());
+}
+
+TEST(Translate, RefusesDomainsThatThePeersCannotHave) {
+  const std::string keys = "<Density>1</Density><Elasticity_modulus>1e5</Elasticity_modulus></Domain>";
+  for (const char* id : {"32", "100000000", "-1", "x"})
+    EXPECT_TRUE(has(refused(wall("<Domain id=\"" + std::string(id) + "\">" + keys, pressure, "struct",
+                                 "<Domain_file_path>domains.dat</Domain_file_path>")),
+                    "no whole number from 0 to 31"))
+        << id;
 }
 
 TEST(Translate, StartsFromADisplacedWallBesideBlood) {

@@ -202,8 +202,9 @@ TEST_F(NodalValuesOf, ALoadInTimeHasOneNumberForEachNode) {
     return 0.5 * (box.points[static_cast<std::size_t>(table.nodes[a])] +
                   box.points[static_cast<std::size_t>(table.nodes[b])]);
   };
-  const auto& t = box.faces.at(0).triangles.at(0);
-  ASSERT_EQ(box.faces[0].name, "x_min");
+  const auto face = std::find_if(box.faces.begin(), box.faces.end(), [](const auto& f) { return f.name == "x_min"; });
+  ASSERT_NE(face, box.faces.end());
+  const auto& t = face->triangles.at(0);
   const auto place = [&](std::int64_t node) {
     return static_cast<std::size_t>(std::lower_bound(table.nodes.begin(), table.nodes.end(), node) -
                                     table.nodes.begin());

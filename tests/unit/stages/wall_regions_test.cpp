@@ -65,8 +65,9 @@ TEST_F(FibreAngle, MakesClassesWhereItDiffers) {
 }
 
 TEST_F(FibreAngle, RegionsAreWrittenByDomainAndClass) {
-  mesh_io::write_simvascular(folder.path() / "wall", box, mesh::RegionKind::wall, 1.0);
+  mesh_io::write_simvascular(folder.path() / "wall", box, mesh::RegionKind::wall, 0.01);
   case_file::MeshSettings meshes;
+  meshes.metres_per_unit = 0.01;
   meshes.wall.emplace().simvascular = folder.path() / "wall";
   FibreAngles angles{.angles = {0.1, 0.2}, .class_of = {}};
   std::string list;
@@ -77,7 +78,11 @@ TEST_F(FibreAngle, RegionsAreWrittenByDomainAndClass) {
   std::ofstream(folder.path() / "domains.dat") << list;
   peer_cases::WallRegions wanted{folder.path() / "domains.dat", {1, 2}, "solver.xml:5 Domain_file_path", "regions.vtu"};
   write_wall_regions(wanted, angles, meshes, folder.path());
-  const auto values = mesh_io::read_vtk_volume(folder.path() / "regions.vtu", {"REGION"}).fields.at(0).values;
+  const auto written = mesh_io::read_vtk_volume(folder.path() / "regions.vtu", {"REGION"});
+  const auto volume = mesh_io::read_vtk_volume(folder.path() / "wall" / "mesh-complete.mesh.vtu");
+  for (std::size_t n = 0; n < volume.points.size(); ++n)
+    EXPECT_LT(norm(written.points.at(n) - volume.points[n]), 1e-6) << "in the unit of the meshes";
+  const auto& values = written.fields.at(0).values;
   ASSERT_EQ(values.size(), box.tetrahedra.size());
   for (std::size_t e = 0; e < values.size(); ++e)
     EXPECT_EQ(values[e], (e < 3 ? 1000 : 2000) + static_cast<double>(e % 2));

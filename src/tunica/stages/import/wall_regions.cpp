@@ -114,7 +114,7 @@ void write_wall_regions(const peer_cases::WallRegions& wanted, const FibreAngles
   for (std::size_t e = 0; e < elements; ++e)
     array.values.push_back(peer_cases::region_number(
         domains[e], angles.class_of.empty() ? 0 : static_cast<std::size_t>(angles.class_of[e])));
-  mesh_io::write_volume_array(folder / wanted.file, wall, mesh::RegionKind::wall, 1.0, array);
+  mesh_io::write_volume_array(folder / wanted.file, wall, mesh::RegionKind::wall, meshes.metres(), array);
 }
 
 }  // namespace tunica::stages
