@@ -137,7 +137,7 @@ TEST(ViewPage, RunsItsOwnScriptsAlone) {
     ++scripts;
     EXPECT_EQ(page.substr(at, page.find('>', at) - at).find("src="), std::string::npos);
   }
-  EXPECT_EQ(scripts, 3U + 6U);  // data; three.js, four of the viewer, the plots
+  EXPECT_EQ(scripts, 3U + 6U);                                     // data; three.js, four of the viewer, the plots
   EXPECT_GT(page.find("id=\"beat-data\""), page.find("<figure"));  // what is read by people stands before it
 }
 

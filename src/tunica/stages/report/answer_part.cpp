@@ -210,8 +210,7 @@ std::string resolution_text(const Results& r) {
   };
   std::string dissipated;
   for (const auto& p : at(r.post, "numerical_dissipation/parts"))
-    if (p.value("above_limit", false))
-      dissipated += (dissipated.empty() ? "" : ", ") + readable(p.value("part", ""));
+    if (p.value("above_limit", false)) dissipated += (dissipated.empty() ? "" : ", ") + readable(p.value("part", ""));
   if (at(r.post, "numerical_dissipation").is_object())
     item(dissipated.empty(), dissipated.empty() ? "The flow is not damped by the scheme" : "The mesh damps the flow",
          dissipated.empty() ? "it takes less than half of what viscosity takes"

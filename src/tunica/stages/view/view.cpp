@@ -48,8 +48,7 @@ void write_view(const ViewRequest& request, const files::Say& say) {
   const auto remarks = beat.remarks;
   say("view: modes and page");
   const auto packed = viewer::pack(std::move(beat), request.packing);
-  std::string text =
-      viewer::begin_page(title) + viewer::view() + plots_of(plots) + "<h2>How exact the view is</h2>\n";
+  std::string text = viewer::begin_page(title) + viewer::view() + plots_of(plots) + "<h2>How exact the view is</h2>\n";
   for (const auto& remark : remarks) text += fmt::format("<p class=\"missing\">{}.</p>\n", page::escaped(remark));
   files::write_atomically(request.output, text + viewer::accuracy(packed) + viewer::end_page(plots, &packed));
 }
