@@ -6,7 +6,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tunica/bc/conditions.hpp"
 #include "tunica/case/fibres_case.hpp"
 
 namespace tunica::pipeline {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <regex>
 
@@ -42,6 +43,14 @@ std::string stage_table(const Results& r) {
   return drawing::page::table({"stage", "status", "seconds", "ranks", "finished (UTC)", "program"}, rows);
 }
 
+/// A number without the noise of its last digits; other text as it is.
+std::string readable(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole ? fmt::format("{:.12g}", number) : text;
+}
+
 /// What went into the run, key by key, in SI units.
 std::string settings_table(const Results& r) {
   const auto run = r.records.find("run");
@@ -49,7 +58,7 @@ std::string settings_table(const Results& r) {
   std::vector<std::vector<std::string>> rows;
   const json settings = at(at(run->second, "inputs"), "settings");
   for (const auto& [key, value] : settings.items())
-    rows.push_back({drawing::page::escaped(key), drawing::page::escaped(value.get<std::string>())});
+    rows.push_back({drawing::page::escaped(key), drawing::page::escaped(readable(value.get<std::string>()))});
   return "<details class=\"fine\"><summary>All settings of the run, in SI units</summary>\n" +
          drawing::page::table({"key", "value"}, rows) + "</details>\n";
 }
