@@ -1,6 +1,7 @@
 // tunica view: the beat in 3D as one HTML file.
 #include "tunica/stages/view/view.hpp"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <cstdio>
@@ -8,6 +9,7 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/view_sources.hpp"
 
@@ -20,6 +22,9 @@ int view(stages::ViewRequest request, const std::string& results, const std::str
   request.case_file = found.case_file;
   request.results = results.empty() ? found.results : std::filesystem::path(results);
   request.post = post.empty() ? found.post : std::filesystem::path(post);
+  if (!post.empty() && !std::filesystem::exists(request.post / "post.json"))
+    throw InputError("--figures", fmt::format("{} holds no figures: there is no post.json", post),
+                     "name the folder that `tunica post` has written, or leave it out");
   parallel::on_root(MPI_COMM_WORLD, [&] {
     stages::write_view(request, [](const std::string& line) {
       std::printf("%s\n", line.c_str());

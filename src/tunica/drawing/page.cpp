@@ -62,6 +62,20 @@ constexpr const char *heading_end = "</h1>\n", *page_end = "</main></body></html
 
 }  // namespace
 
+std::string prose(const std::string& text) {
+  std::string result;
+  bool code = false;
+  for (const char c : escaped(text)) {
+    if (c != '`') {
+      result += c;
+      continue;
+    }
+    result += code ? "</code>" : "<code>";
+    code = !code;
+  }
+  return code ? result + "</code>" : result;
+}
+
 std::string escaped(const std::string& text) {
   std::string result;
   std::string_view rest(text);

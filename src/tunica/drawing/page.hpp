@@ -10,6 +10,9 @@ namespace tunica::drawing::page {
 /// Text in which nothing is taken for markup, neither between tags nor in an attribute; always UTF-8.
 std::string escaped(const std::string& text);
 
+/// A message for a page: escaped, with what stands between backticks as code.
+std::string prose(const std::string& text);
+
 /// What the head of a page holds besides its title.
 struct Head {
   /// Content security policy; that of pages without scripts lets nothing run and fetches nothing.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "tunica/analysis/cycle.hpp"
@@ -256,7 +257,7 @@ class Collector {
       for (const auto& [k, value] : {std::pair{0, figures.tawss}, {1, figures.osi}, {2, figures.rrt}})
         cycle[static_cast<std::size_t>(k)].frames[0].push_back(static_cast<float>(value));
     }
-    limit(cycle[2].frames[0]);
+    limit(cycle[2].frames[0], areas(*shear_));
     body.quantities.push_back(std::move(shear_->quantity));
     for (auto& q : cycle) {
       q.first = body.quantities.back().first;
@@ -265,13 +266,33 @@ class Collector {
     }
   }
 
-  /// RRT is infinite where the mean stress vanishes: no value beyond the 99 % of those that are finite is told apart.
-  static void limit(std::vector<float>& values) {
-    std::vector<float> finite;
-    for (const float v : values)
-      if (std::isfinite(v)) finite.push_back(v);
-    std::sort(finite.begin(), finite.end());
-    const float most = finite.empty() ? 0.0F : finite[finite.size() * 99 / 100];
+  /// Of the surface around each point of a quantity, a third of its triangles [m^2].
+  static std::vector<double> areas(const Filled& filled) {
+    const auto& body = filled.skeleton->body;
+    std::vector<double> of_points(body.points.size(), 0.0);
+    for (const auto& group : body.groups)
+      if (group.kind == "inner")
+        for (std::size_t t = group.first; t < group.first + group.count; ++t) {
+          const auto& [a, b, c] = body.triangles[t];
+          const double third = norm(cross(body.points[b] - body.points[a], body.points[c] - body.points[a])) / 6;
+          for (const auto point : {a, b, c}) of_points[point] += third;
+        }
+    const auto first = of_points.begin() + static_cast<std::ptrdiff_t>(filled.quantity.first);
+    return {first, first + static_cast<std::ptrdiff_t>(filled.quantity.count)};
+  }
+
+  /// RRT is infinite where the mean stress vanishes: no value beyond that of 99 % of the area is told apart.
+  static void limit(std::vector<float>& values, const std::vector<double>& areas) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] < values[b]; });
+    const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
+    double below = 0;
+    float most = 0;
+    for (const auto k : order) {
+      if (!std::isfinite(values[k]) || (below += areas[k]) > 0.99 * whole) break;
+      most = values[k];
+    }
     for (float& v : values) v = std::isfinite(v) ? std::min(v, most) : most;
   }
 

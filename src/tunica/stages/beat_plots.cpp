@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "tunica/artifacts/histories.hpp"
@@ -35,17 +36,35 @@ std::string shown(std::string name) {
   return name;
 }
 
-/// Names of the openings: those of the figures, else all faces of the table that blood passes.
-std::vector<std::string> openings_of(const json& post, const CsvColumns& faces) {
-  std::vector<std::string> names;
+struct Opening {
+  std::string name;
+  bool inlet = false;
+};
+
+/// Those of the figures; without figures all faces that blood passes, and the inlet is where most of it comes in.
+std::vector<Opening> openings_of(const json& post, const CsvColumns& faces) {
+  std::vector<Opening> openings;
   if (post.is_object() && post.contains("openings")) {
-    for (const auto& o : post["openings"]) names.push_back(o.at("name"));
-    return names;
+    for (const auto& o : post["openings"]) openings.push_back({o.at("name"), o.value("inlet", false)});
+    return openings;
   }
   const std::string ending = " flow [";
-  for (const auto& header : faces.headers)
-    if (const auto at = header.find(ending); at != std::string::npos) names.push_back(header.substr(0, at));
-  return names;
+  std::vector<double> largest, mean;
+  for (std::size_t k = 0; k < faces.headers.size(); ++k)
+    if (const auto at = faces.headers[k].find(ending); at != std::string::npos) {
+      const auto& flow = faces.columns[k];
+      openings.push_back({faces.headers[k].substr(0, at)});
+      mean.push_back(std::accumulate(flow.begin(), flow.end(), 0.0));
+      largest.push_back(std::abs(
+          *std::max_element(flow.begin(), flow.end(), [](double a, double b) { return std::abs(a) < std::abs(b); })));
+    }
+  if (openings.empty()) return openings;
+  openings[static_cast<std::size_t>(std::min_element(mean.begin(), mean.end()) - mean.begin())].inlet = true;
+  const double still = 1e-6 * *std::max_element(largest.begin(), largest.end());
+  std::vector<Opening> passed;
+  for (std::size_t k = 0; k < openings.size(); ++k)
+    if (largest[k] > still) passed.push_back(openings[k]);
+  return passed;
 }
 
 void keep_window(const json& post, const std::vector<double>& times, Curve& curve) {
@@ -66,18 +85,12 @@ void add_openings(const fs::path& results, const json& post, std::vector<Plot>& 
   const auto times = artifacts::si_column(*faces, "time", dimension::time);
   Plot pressure{"Pressure at the openings", "time [s]", "pressure [mmHg]", true, {}},
       flow{"Flow at the openings, in at the inlet and out at the others", "time [s]", "flow [ml/s]", true, {}};
-  const auto names = openings_of(post, *faces);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const bool inlet =
-        post.is_object() && post.contains("openings") ? post["openings"][k].value("inlet", false) : k == 0;
-    Curve p{shown(names[k]),
-            {},
-            artifacts::si_column(*faces, names[k] + " pressure", dimension::pressure),
-            static_cast<int>(k)},
-        q{shown(names[k]),
-          {},
-          artifacts::si_column(*faces, names[k] + " flow", dimension::volume_flow),
-          static_cast<int>(k)};
+  const auto openings = openings_of(post, *faces);
+  for (std::size_t k = 0; k < openings.size(); ++k) {
+    const auto& [name, inlet] = openings[k];
+    Curve p{
+        shown(name), {}, artifacts::si_column(*faces, name + " pressure", dimension::pressure), static_cast<int>(k)},
+        q{shown(name), {}, artifacts::si_column(*faces, name + " flow", dimension::volume_flow), static_cast<int>(k)};
     for (auto& v : p.y) v /= mmHg;
     for (auto& v : q.y) v *= (inlet ? -1 : 1) / ml;
     keep_window(post, times, p);

@@ -25,6 +25,12 @@ TEST(Page, TextOfPlotsIsNoMarkup) {
   EXPECT_NE(svg.find(harmless), std::string::npos) << svg;
 }
 
+TEST(Page, MessagesShowCodeAsCode) {
+  EXPECT_EQ(page::prose("take `elements: quadratic`, & <none> else"),
+            "take <code>elements: quadratic</code>, &amp; &lt;none&gt; else");
+  EXPECT_EQ(page::prose("one `alone"), "one <code>alone</code>");
+}
+
 TEST(Page, IsUtf8WhateverFilesAreCalled) {
   EXPECT_EQ(page::escaped("M\xFCller \xC3\xBC"), "M\xEF\xBF\xBDller \xC3\xBC");
 }

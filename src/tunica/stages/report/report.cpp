@@ -213,7 +213,7 @@ std::string readable(std::string name) {
 }
 
 std::string missing(const std::string& what, const std::string& why) {
-  return fmt::format("<p class=\"missing\">{}: {}.</p>\n", drawing::page::escaped(what), drawing::page::escaped(why));
+  return fmt::format("<p class=\"missing\">{}: {}.</p>\n", drawing::page::prose(what), drawing::page::prose(why));
 }
 
 std::string drawings(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& captions_by_file) {

@@ -174,7 +174,9 @@ std::string outlets_part(const Results& r) {
   for (std::size_t k = 0; k < cycles.size(); ++k) head.push_back(fmt::format("cycle {} in 3D", k + 1));
   for (const char* value : {"systolic", "diastolic", "mean"}) {
     const std::string key = fmt::format("{}_Pa", value);
-    std::vector<std::string> cells = {value, fmt::format("{:.1f}", targets.value(key, std::nan("")) / mmHg)};
+    const std::string target = fmt::format("{:.1f}", targets.value(key, std::nan("")) / mmHg);
+    const bool mean = value == std::string_view("mean");  // follows from the other two and the inflow
+    std::vector<std::string> cells = {value, mean ? fmt::format("none; by rule of thumb {}", target) : target};
     for (const auto& cycle : cycles)
       cells.push_back(fmt::format("{:.1f}", at(cycle, "measured").value(key, std::nan("")) / mmHg));
     rows.push_back(cells);
