@@ -129,6 +129,19 @@ TEST(Translate, WritesAFlow) {
   EXPECT_EQ(translation.warnings.size(), 4u);  // four files that are not there
 }
 
+TEST(Translate, TakesCountsInDigitsAlone) {
+  const auto of = [](const char* steps) {
+    FlowParts parts;
+    parts.general =
+        fmt::format("<Number_of_time_steps>{}</Number_of_time_steps><Time_step_size>0.005</Time_step_size>", steps);
+    return refused(flow(parts));
+  };
+  EXPECT_TRUE(has(of("1e3"), "svMultiPhysics reads 1"));
+  const auto two = of("1600 100");
+  EXPECT_TRUE(has(two, "`1600 100` is no number"));
+  EXPECT_EQ(two.find("has no Number_of_time_steps"), std::string::npos) << two;
+}
+
 TEST(Translate, TakesUnitsFromTheSystem) {
   FlowParts parts;
   parts.equation = "<Density>1.06e-3</Density><Viscosity model=\"Newtonian\"><Value>0.004</Value></Viscosity>";
