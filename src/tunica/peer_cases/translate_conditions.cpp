@@ -203,12 +203,11 @@ void Conditions::warn_of_idle_course(const ConditionPart& part) {
   for (const char* key : {"Temporal_values_file_path", "Fourier_coefficients_file_path",
                           "Temporal_and_spatial_values_file_path", "Bct_file_path"})
     if (const Entry* file = part.entry.peek(key)) {
-      context_.warnings.push_back(
-          fmt::format("{}: has no effect on {}, whose Time_dependence is Steady{}; write {} for a condition in time",
-                      file->where(), part.entry.label, result,
-                      std::string_view(key).starts_with("Temporal_v") || std::string_view(key).starts_with("F")
-                          ? "Unsteady"
-                          : "General"));
+      context_.warnings.push_back(fmt::format(
+          "{}: has no effect on {}, whose Time_dependence is Steady{}; write {} for a condition in time", file->where(),
+          part.entry.label, result,
+          std::string_view(key).starts_with("Temporal_v") || std::string_view(key).starts_with("F") ? "Unsteady"
+                                                                                                    : "General"));
       return;
     }
   if (inlet && part.entry.peek("Value") == nullptr)
