@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "tunica/base/digits.hpp"
 #include "tunica/config/document.hpp"
 #include "tunica/config/file_names.hpp"
 #include "tunica/config/nearest.hpp"
@@ -331,7 +332,7 @@ class Reader {
     const Range& usual = *field.plausible;
     const std::string meant = likely_meant(text, field.dimension, usual.low, usual.high);
     // Rounded: 26 ms are 0.026 s, not 0.026000000000000002 s.
-    const std::string si = in_si(std::stod(fmt::format("{:.12g}", si_value(field, text))), field.dimension);
+    const std::string si = in_si(base::without_noise(si_value(field, text)), field.dimension);
     const std::string in_unit = si == text ? "" : " = " + si;
     warnings.push_back(
         {where(path, line), fmt::format("`{}`{} is unusual: {} is expected", text, in_unit, field.plausible_text),

@@ -274,6 +274,13 @@ std::optional<Split> split_number(std::string_view text) {
   return Split{number, trim(text.substr(end - text.data()))};
 }
 
+/// The value in SI, unless it has lost digits or itself beyond the ends of what a number holds (1e-320 s, 1e308 km).
+std::variant<double, UnitError> representable(double value, std::string_view text) {
+  if (value == 0.0 || std::isnormal(value)) return value;
+  return UnitError{fmt::format("`{}` is too {} for a number", trim(text), std::isinf(value) ? "large" : "close to 0"),
+                   "write a value between 1e-307 and 1e308 in SI units, or 0"};
+}
+
 }  // namespace
 
 std::variant<double, UnitError> parse_unit(std::string_view unit, const Dimension& due) {
@@ -297,12 +304,12 @@ std::variant<double, UnitError> parse_quantity(std::string_view text, const Dime
     return UnitError{fmt::format("`{}` is not {}", trim(text), with_article(due)), fmt::format("write {}", example)};
   }
   if (split->unit.empty()) {
-    if (due == dimension::none) return split->number;
+    if (due == dimension::none) return representable(split->number, text);
     return UnitError{fmt::format("`{}` has no unit; {} is due", trim(text), with_article(due)), advice(due)};
   }
   auto factor = parse_unit(split->unit, due);
   if (auto* error = std::get_if<UnitError>(&factor)) return *error;
-  return split->number * std::get<double>(factor);
+  return representable(split->number * std::get<double>(factor), text);
 }
 
 double unit_factor(std::string_view unit, const Dimension& due) {

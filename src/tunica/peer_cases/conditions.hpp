@@ -45,6 +45,7 @@ class Conditions {
   /// there is another one, or more.
   const Entry* held_beside(const Entry& load) const;
   void refuse_second(const Entry& condition);
+  void warn_of_idle_course(const ConditionPart& part);
   void check_mesh_equation();
   void natural(const FacePart& part);
 

@@ -62,8 +62,8 @@ void Conditions::nodal_table(const ConditionPart& part, const std::string& name,
 }
 
 const Entry* Conditions::file_in_time(const ConditionPart& part) {
-  const Entry *bct = part.entry.find("Bct_file_path"), *text = part.entry.find("Temporal_and_spatial_values_file_path");
-  const Entry* file = bct != nullptr ? bct : text;
+  const Entry* bct = part.entry.find("Bct_file_path");
+  const Entry* file = bct != nullptr ? bct : part.entry.find("Temporal_and_spatial_values_file_path");
   if (file == nullptr)
     context_.refuse(part.entry, "is General without a file",
                     "give Bct_file_path or Temporal_and_spatial_values_file_path");

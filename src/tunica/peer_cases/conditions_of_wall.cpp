@@ -216,13 +216,12 @@ void Conditions::support(const ConditionPart& part) {
   const char* unit[] = {units.stiffness_per_area, units.damping_per_area};
   const Entry* file = part.entry.find("Spatial_values_file_path");
   for (int i = 0; i < 2; ++i) {
-    const Entry* entry = part.entry.find(names[i][0]);
     if (file != nullptr) {
       auto& array = support.section(names[i][1], file->where()).section("array", "");
       array.add("name", names[i][0], fmt::format("the name that {} reads", context_.peer()));
       array.add("unit", unit[i], fmt::format("--units {}", units.name));
       array.add("file", context_.path(*file), file->where());
-    } else if (entry != nullptr) {
+    } else if (const Entry* entry = part.entry.find(names[i][0])) {
       support.add(names[i][1], context_.quantity(*entry, unit[i]), entry->where());
     } else {
       support.add(names[i][1], with_unit(0.0, unit[i]), fmt::format("not written; {} would take 1", context_.peer()));

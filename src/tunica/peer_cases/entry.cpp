@@ -87,16 +87,25 @@ fs::path file_in(const fs::path& folder) {
 
 std::string Entry::where() const { return fmt::format("{}:{} {}", file, line, key); }
 
-const Entry* Entry::find(std::string_view wanted) const {
+const Entry* Entry::peek(std::string_view wanted) const {
   for (const Entry& entry : entries)
     if (entry.key == wanted) return &entry;
   return nullptr;
 }
 
+const Entry* Entry::find(std::string_view wanted) const {
+  const Entry* found = peek(wanted);
+  if (found != nullptr) found->read = true;
+  return found;
+}
+
 std::vector<const Entry*> Entry::all(std::string_view wanted) const {
   std::vector<const Entry*> found;
   for (const Entry& entry : entries)
-    if (entry.key == wanted) found.push_back(&entry);
+    if (entry.key == wanted) {
+      entry.read = true;
+      found.push_back(&entry);
+    }
   return found;
 }
 

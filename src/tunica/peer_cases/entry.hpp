@@ -18,11 +18,15 @@ struct Entry {
   int line = 0;                     ///< there, from 1
   bool section = false;             ///< are there keys below it, or may there be?
   std::vector<Entry> entries = {};  ///< of a section, in the order of the file
+  mutable bool read = false;        ///< has a lookup found it? What none has is of no effect, and reported
 
   /// "solver.xml:31 Density".
   std::string where() const;
-  /// The first entry of that key; none: nullptr.
+  /// The first entry of that key; none: nullptr. This and all() mark what they find as read: to be asked only where the
+  /// answer has an effect.
   const Entry* find(std::string_view wanted) const;
+  /// As find(), without a mark.
+  const Entry* peek(std::string_view wanted) const;
   std::vector<const Entry*> all(std::string_view wanted) const;
 };
 

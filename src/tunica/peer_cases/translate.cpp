@@ -41,8 +41,8 @@ void check_start(Context& context, const Entry& general) {
 
 std::optional<double> steps_of(Context& context, const Entry& general) {
   const auto steps = context.number(general, "Number_of_time_steps");
-  if (!steps) context.refuse(general, "has no Number_of_time_steps", "write it");
-  if (!context.number(general, "Time_step_size")) context.refuse(general, "has no Time_step_size", "write it");
+  for (const char* key : {"Number_of_time_steps", "Time_step_size"})
+    if (general.find(key) == nullptr) context.refuse(general, fmt::format("has no {}", key), "write it");
   return steps;
 }
 
@@ -193,7 +193,6 @@ Translation translate(PeerFile file, const UnitSystem& units, const std::filesys
                       const Findings& findings) {
   Context context{.file = file, .units = units, .case_folder = case_folder, .findings = findings};
   const auto dropped = check_vocabulary(file, context.problems);
-  list_dropped(context, dropped);
   const Entry& general = general_of(context);
   if (context.number(general, "Number_of_spatial_dimensions").value_or(3) != 3)
     context.missing(*general.find("Number_of_spatial_dimensions"), "problems in two dimensions",
@@ -214,6 +213,8 @@ Translation translate(PeerFile file, const UnitSystem& units, const std::filesys
     translate_output(context, general, top);
   }
   if (!context.problems.empty()) throw InputError(std::move(context.problems));
+  list_dropped(context, dropped);
+  list_dropped(context, unread_entries(file, dropped));
   return {with_head(context, top), context.remarks, context.warnings, context.prestress,
           context.initial,         context.fibres,  context.nodal,    context.regions};
 }

@@ -64,8 +64,7 @@ std::string Conditions::file_of(const Entry& file) {
 
 bool Conditions::table(const ConditionPart& part, const char* unit, CaseKey& to) {
   const Entry* values = part.entry.find("Temporal_values_file_path");
-  const Entry* series = part.entry.find("Fourier_coefficients_file_path");
-  const Entry* file = values != nullptr ? values : series;
+  const Entry* file = values != nullptr ? values : part.entry.find("Fourier_coefficients_file_path");
   if (file == nullptr) {
     context_.refuse(part.entry, "is Unsteady without a file",
                     "give Temporal_values_file_path or Fourier_coefficients_file_path");
@@ -167,15 +166,19 @@ std::optional<ConditionPart> Conditions::part_of(const Entry& condition) {
     context_.missing(condition, "a condition on the interface of blood and wall", "remove it");
     return std::nullopt;
   }
-  return ConditionPart{condition, *found, *type, *time, context_.vector(condition, "Value"), held_beside(condition)};
+  ConditionPart part{condition, *found, *type, *time, {}, held_beside(condition)};
+  const bool by_nodes = *type == ConditionType::traction && condition.peek("Traction_values_file_path") != nullptr;
+  if (*time == Dependence::steady && !by_nodes) part.value = context_.vector(condition, "Value");
+  return part;
 }
 
 void Conditions::translate(const Entry& condition) {
   const auto part = part_of(condition);
   if (!part) return;
-  const std::string profile = context_.text(condition, "Profile", "Flat");
+  const Entry* named = condition.peek("Profile");
+  const std::string profile = named == nullptr ? "Flat" : named->value;
   if (profile != "Flat" && profile != "Parabolic") {
-    const Entry& entry = *condition.find("Profile");
+    const Entry& entry = *named;
     if (profile != "User_defined")
       return context_.refuse(entry,
                              fmt::format("is `{}`, which {} does not have", text::printable(profile), context_.peer()),
@@ -188,7 +191,28 @@ void Conditions::translate(const Entry& condition) {
   if (part->value.size() > 1 && part->type != ConditionType::traction)
     return context_.refuse(*condition.find("Value"), fmt::format("has {} components", part->value.size()),
                            "write one number; Effective_direction says along which axes");
+  warn_of_idle_course(*part);
   translate(*part);
+}
+
+/// A condition that looks as if it changed in time, and does not: most of all an inlet that becomes a wall by it.
+void Conditions::warn_of_idle_course(const ConditionPart& part) {
+  if (part.time != Dependence::steady) return;
+  const bool inlet = part.face.lumen && part.type == ConditionType::dirichlet;
+  const std::string result = inlet && part.vanishes() ? ", so that the face is a wall that blood does not pass" : "";
+  for (const char* key : {"Temporal_values_file_path", "Fourier_coefficients_file_path",
+                          "Temporal_and_spatial_values_file_path", "Bct_file_path"})
+    if (const Entry* file = part.entry.peek(key)) {
+      context_.warnings.push_back(fmt::format(
+          "{}: has no effect on {}, whose Time_dependence is Steady{}; write {} for a condition in time", file->where(),
+          part.entry.label, result,
+          std::string_view(key).starts_with("Temporal_v") || std::string_view(key).starts_with("F") ? "Unsteady"
+                                                                                                    : "General"));
+      return;
+    }
+  if (inlet && part.entry.peek("Value") == nullptr)
+    context_.warnings.push_back(fmt::format("{}: {} has no Value, which {} takes for 0{}", part.entry.where(),
+                                            part.entry.label, context_.peer(), result));
 }
 
 void Conditions::translate(const ConditionPart& part) {

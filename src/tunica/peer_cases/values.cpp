@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "tunica/base/text.hpp"
@@ -39,6 +40,28 @@ ReadNumber read_number(std::string_view text, Dialect dialect) {
                           "write one number with a decimal point and nothing behind it"}};
 }
 
+ReadNumber read_integer(std::string_view text, Dialect dialect) {
+  const ReadNumber number = read_number(text, dialect);
+  if (number.error) return number;
+  std::string_view digits = text;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  int value = 0;
+  const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (failure == std::errc::result_out_of_range)
+    return {0.0, ValueError{fmt::format("`{}` is beyond the integers of the peers", text),
+                            fmt::format("write at most {}", std::numeric_limits<int>::max())}};
+  if (failure == std::errc() && end == digits.data() + digits.size()) return {static_cast<double>(value)};
+  const bool whole = number.value == std::floor(number.value) && std::abs(number.value) < 1e9;
+  const std::string remedy =
+      whole ? fmt::format("write {:.0f} for what it seems to mean", number.value) : "write digits only";
+  if (failure != std::errc() || dialect != Dialect::xml)
+    return {0.0, ValueError{fmt::format("`{}` is no whole number in digits", text), remedy}};
+  return {0.0, ValueError{fmt::format(
+                              "`{}` is no whole number in digits; svMultiPhysics reads {}, stopping in front of the {}",
+                              text, value, *end),
+                          remedy}};
+}
+
 bool holds_fortran_exponents(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string word; stream >> word;)
@@ -46,7 +69,7 @@ bool holds_fortran_exponents(const std::filesystem::path& file) {
   return false;
 }
 
-ReadVector read_vector(std::string_view text, Dialect dialect) {
+ReadVector read_vector(std::string_view text, Dialect dialect, ReadNumber (*component)(std::string_view, Dialect)) {
   ReadVector vector;
   std::string plain(text);
   std::replace_if(
@@ -54,7 +77,7 @@ ReadVector read_vector(std::string_view text, Dialect dialect) {
       [](char c) { return std::string_view("(){},;\t\r\n").find(c) != std::string_view::npos; }, ' ');
   for (std::size_t at = 0; (at = plain.find_first_not_of(' ', at)) != std::string::npos;) {
     const auto end = std::min(plain.find(' ', at), plain.size());
-    const ReadNumber number = read_number(std::string_view(plain).substr(at, end - at), dialect);
+    const ReadNumber number = component(std::string_view(plain).substr(at, end - at), dialect);
     if (number.error) return {{}, number.error};
     vector.values.push_back(number.value);
     at = end;

@@ -32,10 +32,14 @@ struct ReadFlag {
 /// The whole text is one finite number. An exponent after D is one in .inp files, which Fortran reads; svMultiPhysics
 /// stops in front of it and takes 1.5D-4 for 1.5, so there it is an error.
 ReadNumber read_number(std::string_view text, Dialect dialect);
+/// The whole text is an integer of the peers, digits alone with a sign or without. svMultiPhysics stops in front of
+/// anything else and takes 1e3 for 1.
+ReadNumber read_integer(std::string_view text, Dialect dialect);
 /// Has a file of numbers one with an exponent after D? Not where there is no file.
 bool holds_fortran_exponents(const std::filesystem::path& file);
 /// Numbers between commas, semicolons or blanks, with or without ( ) or { } around.
-ReadVector read_vector(std::string_view text, Dialect dialect);
+ReadVector read_vector(std::string_view text, Dialect dialect,
+                       ReadNumber (*component)(std::string_view, Dialect) = read_number);
 /// true, false, 1, 0; in .inp files also t, f, and all in either case.
 ReadFlag read_flag(std::string_view text, Dialect dialect);
 

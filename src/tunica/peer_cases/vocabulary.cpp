@@ -17,7 +17,8 @@ constexpr KeyRule refused(const char* key, Kind kind, const char* physics) {
   return {key, kind, Use::refused, physics};
 }
 
-constexpr auto T = Kind::text, P = Kind::path, N = Kind::number, I = Kind::integer, F = Kind::flag, V = Kind::vector;
+constexpr auto T = Kind::text, P = Kind::path, N = Kind::number, A = Kind::amount, I = Kind::integer, C = Kind::count,
+               F = Kind::flag, V = Kind::vector, X = Kind::axes;
 
 constexpr SectionRule anything{{}, true};
 
@@ -33,10 +34,10 @@ constexpr const char *logging = "tunica's log has one level",
 
 constexpr auto general_keys = std::to_array<KeyRule>({
     used("Continue_previous_simulation", F),
-    used("Increment_in_saving_VTK_files", I),
-    used("Increment_in_saving_restart_files", I),
+    used("Increment_in_saving_VTK_files", C),
+    used("Increment_in_saving_restart_files", C),
     used("Number_of_spatial_dimensions", I),
-    used("Number_of_time_steps", I),
+    used("Number_of_time_steps", C),
     used("Save_results_in_folder", P),
     used("Spectral_radius_of_infinite_time_step", N),
     used("Time_step_size", N),
@@ -50,7 +51,7 @@ constexpr auto general_keys = std::to_array<KeyRule>({
     dropped("Save_results_to_VTK_format", F, "results are always written"),
     dropped("Searched_file_name_to_trigger_stop", T, "Ctrl-C or SIGTERM ends a run with a checkpoint"),
     dropped("Start_averaging_from_zero", F, "`tunica post` averages over cycles"),
-    dropped("Start_saving_after_time_step", I, "fields are written from the start"),
+    dropped("Start_saving_after_time_step", C, "fields are written from the start"),
     dropped("Use_separator_in_the_history_file", F, logging),
     dropped("Verbose", F, logging),
     dropped("Warning", F, logging),
@@ -77,7 +78,7 @@ constexpr SectionRule face_section{face_keys};
 
 constexpr auto mesh_keys = std::to_array<KeyRule>({
     used("Add_face", face_section, true),
-    used("Domain", I),
+    used("Domain", C),
     used("Domain_file_path", P),
     {"Fiber_direction", V, Use::used, "", nullptr, true},
     {"Fiber_direction_file_path", P, Use::used, "", nullptr, true},
@@ -140,12 +141,12 @@ constexpr const char *electrophysiology = "of electrophysiology", *body_force = 
       used("Continuity_stabilization_coefficient", N), used("Density", N), used("Dilational_penalty_model", T),        \
       used("Elasticity_modulus", N), used("Equation", T), used("Momentum_stabilization_coefficient", N),               \
       used("Penalty_parameter", N), used("Poisson_ratio", N), used("Viscosity", viscosity_section),                    \
-      dropped("Absolute_tolerance", N, electrophysiology),                                                             \
+      dropped("Absolute_tolerance", A, electrophysiology),                                                             \
       KeyRule{"Anisotropic_conductivity", V, Use::dropped, electrophysiology, nullptr, true},                          \
       dropped("Feedback_parameter_for_stretch_activated_currents", N, electrophysiology),                              \
-      dropped("Isotropic_conductivity", N, electrophysiology), dropped("Maximum_iterations", I, electrophysiology),    \
+      dropped("Isotropic_conductivity", N, electrophysiology), dropped("Maximum_iterations", C, electrophysiology),    \
       dropped("Myocardial_zone", T, electrophysiology), dropped("ODE_solver", T, electrophysiology),                   \
-      dropped("Relative_tolerance", N, electrophysiology), dropped("Time_step_for_integration", N, electrophysiology), \
+      dropped("Relative_tolerance", A, electrophysiology), dropped("Time_step_for_integration", N, electrophysiology), \
       KeyRule{"Conductivity", V, Use::refused, "heat or electric current", nullptr, true},                             \
       refused("Electrophysiology_model", T, "electrophysiology"),                                                      \
       refused("Fluid_density", N, "the coupled momentum method"), refused("Force_x", N, body_force),                   \
@@ -189,7 +190,7 @@ constexpr auto condition_keys = std::to_array<KeyRule>({
     used("Coupling_interface", coupling_section),
     used("Damping", N),
     used("Distal_pressure", N),
-    used("Effective_direction", V),
+    used("Effective_direction", X),
     used("Follower_pressure_load", F),
     used("Fourier_coefficients_file_path", P),
     used("Impose_flux", F),
@@ -249,61 +250,64 @@ constexpr SectionRule linear_algebra_section{linear_algebra_keys};
 
 constexpr auto solver_keys = std::to_array<KeyRule>({
     used("Linear_algebra", linear_algebra_section),
-    dropped("Absolute_tolerance", N, own_solver),
-    dropped("Krylov_space_dimension", I, own_solver),
-    dropped("Max_iterations", I, own_solver),
-    dropped("NS_CG_max_iterations", I, own_solver),
-    dropped("NS_CG_tolerance", N, own_solver),
-    dropped("NS_GM_max_iterations", I, own_solver),
-    dropped("NS_GM_tolerance", N, own_solver),
+    dropped("Absolute_tolerance", A, own_solver),
+    dropped("Krylov_space_dimension", C, own_solver),
+    dropped("Max_iterations", C, own_solver),
+    dropped("NS_CG_max_iterations", C, own_solver),
+    dropped("NS_CG_tolerance", A, own_solver),
+    dropped("NS_GM_max_iterations", C, own_solver),
+    dropped("NS_GM_tolerance", A, own_solver),
     dropped("Preconditioner", T, own_solver),
-    dropped("Tolerance", N, own_solver),
+    dropped("Tolerance", A, own_solver),
     dropped("Use_Trilinos_for_assembly", F, own_solver),
 });
 constexpr SectionRule solver_section{solver_keys};
 
 constexpr const char* own_output = "tunica writes its own selection of fields and histories";
 
-// The values are flags, and in `Output type="Alias"` names.
-constexpr auto output_keys = std::to_array<KeyRule>({
-    dropped("Absolute_velocity", T, own_output),
-    dropped("Acceleration", T, own_output),
-    dropped("Action_potential", T, own_output),
-    dropped("Active_tension_fibers", T, own_output),
-    dropped("Active_tension_normal", T, own_output),
-    dropped("Active_tension_sheets", T, own_output),
-    dropped("Area", T, own_output),
-    dropped("CG_Strain", T, own_output),
-    dropped("CG_Strain_Trace", T, own_output),
-    dropped("Cauchy_stress", T, own_output),
-    dropped("Def_grad", T, own_output),
-    dropped("Displacement", T, own_output),
-    dropped("Divergence", T, own_output),
-    dropped("Energy_flux", T, own_output),
-    dropped("Fiber_alignment", T, own_output),
-    dropped("Fiber_direction", T, own_output),
-    dropped("Fiber_shortening", T, own_output),
-    dropped("Fiber_stretch", T, own_output),
-    dropped("Fiber_stretch_rate", T, own_output),
-    dropped("Heat_flux", T, own_output),
-    dropped("Ionic_state_variables", T, own_output),
-    dropped("Jacobian", T, own_output),
-    dropped("Membrane_potential", T, own_output),
-    dropped("Pressure", T, own_output),
-    dropped("Strain", T, own_output),
-    dropped("Strain_invariants", T, own_output),
-    dropped("Stress", T, own_output),
-    dropped("Temperature", T, own_output),
-    dropped("Traction", T, own_output),
-    dropped("Velocity", T, own_output),
-    dropped("Viscosity", T, own_output),
-    dropped("VonMises_stress", T, own_output),
-    dropped("Volume", T, own_output),
-    dropped("Vortex", T, own_output),
-    dropped("Vorticity", T, own_output),
-    dropped("WSS", T, own_output),
-});
-constexpr SectionRule output_section{output_keys};
+constexpr auto output_keys(Kind kind) {
+  return std::to_array<KeyRule>({
+      dropped("Absolute_velocity", kind, own_output),
+      dropped("Acceleration", kind, own_output),
+      dropped("Action_potential", kind, own_output),
+      dropped("Active_tension_fibers", kind, own_output),
+      dropped("Active_tension_normal", kind, own_output),
+      dropped("Active_tension_sheets", kind, own_output),
+      dropped("Area", kind, own_output),
+      dropped("CG_Strain", kind, own_output),
+      dropped("CG_Strain_Trace", kind, own_output),
+      dropped("Cauchy_stress", kind, own_output),
+      dropped("Def_grad", kind, own_output),
+      dropped("Displacement", kind, own_output),
+      dropped("Divergence", kind, own_output),
+      dropped("Energy_flux", kind, own_output),
+      dropped("Fiber_alignment", kind, own_output),
+      dropped("Fiber_direction", kind, own_output),
+      dropped("Fiber_shortening", kind, own_output),
+      dropped("Fiber_stretch", kind, own_output),
+      dropped("Fiber_stretch_rate", kind, own_output),
+      dropped("Heat_flux", kind, own_output),
+      dropped("Ionic_state_variables", kind, own_output),
+      dropped("Jacobian", kind, own_output),
+      dropped("Membrane_potential", kind, own_output),
+      dropped("Pressure", kind, own_output),
+      dropped("Strain", kind, own_output),
+      dropped("Strain_invariants", kind, own_output),
+      dropped("Stress", kind, own_output),
+      dropped("Temperature", kind, own_output),
+      dropped("Traction", kind, own_output),
+      dropped("Velocity", kind, own_output),
+      dropped("Viscosity", kind, own_output),
+      dropped("VonMises_stress", kind, own_output),
+      dropped("Volume", kind, own_output),
+      dropped("Vortex", kind, own_output),
+      dropped("Vorticity", kind, own_output),
+      dropped("WSS", kind, own_output),
+  });
+}
+constexpr auto outputs = output_keys(F), aliases = output_keys(T);
+constexpr SectionRule alias_section{aliases};  // of `Output type="Alias"`, whose values are names
+constexpr SectionRule output_section{outputs, false, "Alias", &alias_section};
 
 constexpr auto zerod_keys = std::to_array<KeyRule>({
     used("Configuration_file", P),
@@ -320,16 +324,16 @@ constexpr auto equation_keys = std::to_array<KeyRule>({
     used("Add_BF", body_force_section, true),
     used("Domain", domain_section, true),
     used("LS", solver_section),
-    used("Max_iterations", I),
+    used("Max_iterations", C),
     used("Output", output_section, true),
     used("Initialize_RCR_from_flow", F),
     used("Prestress", F),
-    used("Tolerance", N),
+    used("Tolerance", A),
     used("Use_taylor_hood_type_basis", F),
     used("svZeroDSolver_interface", zerod_section),
     dropped("Coupled", F, "equations are solved together"),
     dropped("Explicit_geometric_coupling", F, "the mesh follows the wall within the step"),
-    dropped("Min_iterations", I, "a step ends when it has converged"),
+    dropped("Min_iterations", C, "a step ends when it has converged"),
     refused("Initialize", T, "the coupled momentum method"),
     refused_section("Couple_to_cplBC", "cplBC's zero-dimensional models"),
     refused_section("Couple_to_genBC", "genBC's zero-dimensional models"),

@@ -10,7 +10,18 @@
 
 namespace tunica::peer_cases {
 
-enum class Kind { text, path, number, integer, flag, vector, section };
+enum class Kind {
+  text,
+  path,
+  number,
+  amount,  ///< a number that is not below 0
+  integer,
+  count,  ///< an integer that is not below 0
+  flag,
+  vector,
+  axes,  ///< three integers, those of the axes that are meant not 0
+  section
+};
 
 enum class Use {
   used,     ///< the translation looks at it
@@ -24,6 +35,8 @@ struct KeyRule;
 struct SectionRule {
   std::span<const KeyRule> keys;
   bool loose = false;
+  const char* other_label = "";        ///< a section of that label ...
+  const SectionRule* other = nullptr;  ///< ... has these keys
 };
 
 struct KeyRule {
@@ -49,5 +62,9 @@ struct Dropped {
 /// that do not read, physics that is missing. Keys get the letters of the vocabulary where they differ by case alone,
 /// as .inp files may. Returns the dropped keys; they point into `file`.
 std::vector<Dropped> check_vocabulary(PeerFile& file, std::vector<Problem>& problems);
+
+/// What the translation of the file, when it is through, has not looked at, of a section that it has not looked at the
+/// section alone; without `dropped`.
+std::vector<Dropped> unread_entries(const PeerFile& file, const std::vector<Dropped>& dropped);
 
 }  // namespace tunica::peer_cases

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <set>
 
 #include "tunica/base/text.hpp"
 #include "tunica/config/nearest.hpp"
+#include "tunica/peer_cases/svsolver_files.hpp"
 #include "tunica/peer_cases/values.hpp"
 #include "tunica/peer_cases/vocabulary.hpp"
 
@@ -64,7 +65,8 @@ class Check {
         problems_.push_back({entry.where(),
                              fmt::format("`{}` stands where a section is due", text::printable(entry.value)),
                              "write its keys below it"});
-      return section(entry, *rule.below);
+      const SectionRule& below = *rule.below;
+      return section(entry, below.other != nullptr && entry.label == below.other_label ? *below.other : below);
     }
     if (!entry.entries.empty()) {
       problems_.push_back({entry.where(), "has keys below it where a value is due", "write the value"});
@@ -74,29 +76,58 @@ class Check {
     if (rule.use == Use::dropped) dropped.push_back({&entry, rule.why});
   }
 
-  void value(const Entry& entry, const KeyRule& rule) {
-    std::optional<ValueError> error;
-    bool off = entry.value.empty();
-    if (rule.kind == Kind::number || rule.kind == Kind::integer) {
-      const ReadNumber number = read_number(entry.value, dialect_);
-      error = number.error;
-      if (!error && rule.kind == Kind::integer && number.value != std::floor(number.value))
-        error = ValueError{fmt::format("`{}` is no whole number", entry.value), "write a whole number"};
-      off = number.value == 0;
-    } else if (rule.kind == Kind::flag) {
-      const ReadFlag flag = read_flag(entry.value, dialect_);
-      error = flag.error;
-      off = !flag.value;
-    } else if (rule.kind == Kind::vector) {
-      const ReadVector vector = read_vector(entry.value, dialect_);
-      error = vector.error;
-      off = std::all_of(vector.values.begin(), vector.values.end(), [](double v) { return v == 0; });
-    } else if (rule.use == Use::used && off) {
-      error = ValueError{"has no value", "write it, or remove the key"};
+  /// Of a value: what is wrong with it, and is it 0, false or empty?
+  struct Reading {
+    std::optional<ValueError> error = {};
+    bool off = false;
+  };
+
+  Reading number(const Entry& entry, Kind kind) const {
+    const bool whole = kind == Kind::integer || kind == Kind::count;
+    const ReadNumber number = whole ? read_integer(entry.value, dialect_) : read_number(entry.value, dialect_);
+    if (!number.error && number.value < 0 && (kind == Kind::count || kind == Kind::amount))
+      return {ValueError{fmt::format("`{}` is below 0", entry.value), "write a number that is not"}};
+    return {number.error, number.value == 0};
+  }
+
+  Reading axes(const Entry& entry) const {
+    const ReadVector vector = read_vector(entry.value, dialect_, read_integer);
+    if (vector.error || vector.values.size() == 3) return {vector.error};
+    return {ValueError{fmt::format("has {} components", vector.values.size()),
+                       "write three, (0, 0, 1) for the direction z"}};
+  }
+
+  Reading reading(const Entry& entry, Kind kind) const {
+    switch (kind) {
+      case Kind::number:
+      case Kind::amount:
+      case Kind::integer:
+      case Kind::count:
+        return number(entry, kind);
+      case Kind::flag: {
+        const ReadFlag flag = read_flag(entry.value, dialect_);
+        return {flag.error, !flag.value};
+      }
+      case Kind::vector: {
+        const ReadVector vector = read_vector(entry.value, dialect_);
+        return {vector.error, std::all_of(vector.values.begin(), vector.values.end(), [](double v) { return v == 0; })};
+      }
+      case Kind::axes:
+        return axes(entry);
+      default:
+        return {{}, entry.value.empty()};
     }
+  }
+
+  void value(const Entry& entry, const KeyRule& rule) {
+    auto [error, off] = reading(entry, rule.kind);
+    if ((rule.kind == Kind::text || rule.kind == Kind::path) && rule.use == Use::used && off)
+      error = ValueError{"has no value", "write it, or remove the key"};
     if (error)
       problems_.push_back({entry.where(), error->what, error->remedy});
-    else if (rule.use == Use::refused && !off)
+    else if (rule.use == Use::refused && off)
+      dropped.push_back({&entry, "switched off, and not in tunica"});
+    else if (rule.use == Use::refused)
       missing(entry, rule.why);
   }
 
@@ -109,7 +140,42 @@ class Check {
   std::vector<Problem>& problems_;
 };
 
+class Unread {
+ public:
+  explicit Unread(const std::vector<Dropped>& dropped) {
+    for (const Dropped& key : dropped) reported_.insert(key.entry);
+  }
+
+  void look(const Entry& section) {
+    for (const Entry& below : section.entries) {
+      // svSolver's own files have been read where their keys became those of solver.xml.
+      if (below.key == svpre_commands || below.key == svsolver_settings) continue;
+      if (below.read)
+        look(below);
+      else if (!is_reported(below))
+        found.push_back({&below, "without effect here"});
+    }
+  }
+
+  std::vector<Dropped> found;
+
+ private:
+  /// The key, or all that is in the section.
+  bool is_reported(const Entry& entry) const {
+    if (entry.entries.empty()) return reported_.contains(&entry);
+    return std::all_of(entry.entries.begin(), entry.entries.end(), [&](const Entry& e) { return is_reported(e); });
+  }
+
+  std::set<const Entry*> reported_;
+};
+
 }  // namespace
+
+std::vector<Dropped> unread_entries(const PeerFile& file, const std::vector<Dropped>& dropped) {
+  Unread unread(dropped);
+  unread.look(file.root);
+  return std::move(unread.found);
+}
 
 std::vector<Dropped> check_vocabulary(PeerFile& file, std::vector<Problem>& problems) {
   Check check(file.dialect, problems);

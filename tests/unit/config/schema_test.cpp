@@ -255,6 +255,13 @@ TEST(Schema, WarnsOfUnitSlips) {
   EXPECT_EQ(parse_text(Foam::schema(), "density: 1250 kg/m^3").warnings.at(0).what, "heavy and wet");
 }
 
+TEST(Schema, ValuesThatNoNumberHoldsAreErrorsWithTheirLine) {
+  const Problem problem = problem_of("yield: 1e-320 Pa\n");
+  EXPECT_EQ(problem.where, "yield (case.yaml:2)");
+  EXPECT_EQ(problem.what, "`1e-320 Pa` is too close to 0 for a number");
+  EXPECT_EQ(parse_text(Foam::schema(), "density: 3e-308 kg/m^3").warnings.size(), 1u);
+}
+
 TEST(Schema, PathsAreRelativeToTheCaseFileAndMustExist) {
   const auto folder = std::filesystem::temp_directory_path() / "tunica_schema_test";
   std::filesystem::create_directories(folder);

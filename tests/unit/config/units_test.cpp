@@ -100,6 +100,16 @@ TEST(Units, RefusesAmbiguousAndBrokenTexts) {
     refused(text, dimension::length);
 }
 
+TEST(Units, RefusesWhatNoNumberHolds) {
+  const auto tiny = refused("1e-320 s", dimension::time);
+  EXPECT_EQ(tiny.what, "`1e-320 s` is too close to 0 for a number");
+  EXPECT_EQ(tiny.remedy, "write a value between 1e-307 and 1e308 in SI units, or 0");
+  EXPECT_EQ(refused("1e-306 mm", dimension::length).what, "`1e-306 mm` is too close to 0 for a number");
+  EXPECT_EQ(refused("1e308 km", dimension::length).what, "`1e308 km` is too large for a number");
+  EXPECT_EQ(refused("-4e-320", dimension::none).what, "`-4e-320` is too close to 0 for a number");
+  EXPECT_EQ(si("0 s", dimension::time), 0.0);
+}
+
 TEST(Units, FactorOfAUnitThrowsInputError) {
   EXPECT_DOUBLE_EQ(unit_factor("mm", dimension::length), 1e-3);
   EXPECT_THROW(unit_factor("s", dimension::length), InputError);

@@ -134,6 +134,32 @@ TEST(Vocabulary, KnowsKeysByTheirPlace) {
             std::string::npos);
 }
 
+TEST(Vocabulary, HoldsValuesAgainstTheirKinds) {
+  const auto wrong = [](const std::string& section, const std::string& text) {
+    std::string all;
+    for (const auto& p : problems_of(read_xml(
+             "<svMultiPhysicsFile><Add_equation type=\"fluid\">" + section + text + "</svMultiPhysicsFile>", "s.xml")))
+      all += format(p) + "\n";
+    return all;
+  };
+  const auto direction = [&](const std::string& value) {
+    return wrong("<Add_BC name=\"in\"><Effective_direction>" + value + "</Effective_direction></Add_BC>",
+                 "</Add_equation>");
+  };
+  EXPECT_EQ(direction("(0, 0, 1)"), "");
+  EXPECT_EQ(direction("0 -1 0"), "");
+  EXPECT_NE(direction("(0, 0, 0.5)").find("`0.5` is no whole number"), std::string::npos) << direction("(0, 0, 0.5)");
+  EXPECT_NE(direction("(0, 1)").find("has 2 components"), std::string::npos) << direction("(0, 1)");
+  EXPECT_NE(direction("(0, 0, 1, 0)").find("has 4 components"), std::string::npos);
+  const auto key = [&](const std::string& text) { return wrong(text, "</Add_equation>"); };
+  EXPECT_NE(key("<Tolerance>-1</Tolerance>").find("`-1` is below 0"), std::string::npos);
+  EXPECT_NE(key("<Max_iterations>-5</Max_iterations>").find("`-5` is below 0"), std::string::npos);
+  EXPECT_NE(key("<LS type=\"NS\"><Tolerance>-1</Tolerance></LS>").find("`-1` is below 0"), std::string::npos);
+  EXPECT_NE(key("<Output type=\"Spatial\"><WSS>yes</WSS></Output>").find("neither true nor false"), std::string::npos);
+  EXPECT_EQ(key("<Output type=\"Spatial\"><WSS>true</WSS></Output>"), "");
+  EXPECT_EQ(key("<Output type=\"Alias\"><Displacement>FS_Displacement</Displacement></Output>"), "");
+}
+
 TEST(Vocabulary, IsBlindToCaseInInpFiles) {
   EXPECT_TRUE(problems_of(read_inp("verbose: t\nAdd equation: fluid {force_x: 0}", "s.inp")).empty());
 }

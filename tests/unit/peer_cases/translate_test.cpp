@@ -129,6 +129,47 @@ TEST(Translate, WritesAFlow) {
   EXPECT_EQ(translation.warnings.size(), 4u);  // four files that are not there
 }
 
+TEST(Translate, ListsWhatHasNoEffect) {
+  const auto listed = [](const FlowParts& parts) { return joined(translated(flow(parts)).remarks.dropped); };
+  EXPECT_EQ(listed({}).find("without effect here"), std::string::npos) << listed({});
+  FlowParts parts;
+  parts.general += "<Convert_BIN_to_VTK_format>false</Convert_BIN_to_VTK_format>";
+  parts.equation += "<Use_taylor_hood_type_basis>false</Use_taylor_hood_type_basis><Poisson_ratio>0.3</Poisson_ratio>";
+  parts.inlet =
+      "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence><Temporal_values_file_path>in.flow"
+      "</Temporal_values_file_path><Value>3</Value><Impose_flux>true</Impose_flux>";
+  parts.outlet += "<RCR_values><Capacitance>1</Capacitance></RCR_values>";
+  const auto all = listed(parts);
+  EXPECT_TRUE(has(all, "switched off, and not in tunica: Convert_BIN_to_VTK_format:1"));
+  for (const char* key : {"Use_taylor_hood_type_basis:", "Poisson_ratio:", "Value:", "RCR_values:"})
+    EXPECT_TRUE(has(all.substr(all.find("without effect here")), key));
+  EXPECT_EQ(all.find("Capacitance"), std::string::npos) << all;
+  EXPECT_TRUE(has(translated(flow(parts)).yaml, "without effect here:"));
+}
+
+TEST(Translate, WarnsOfAnInletThatIsAWall) {
+  FlowParts parts;
+  parts.inlet = "<Type>Dir</Type><Temporal_values_file_path>in.flow</Temporal_values_file_path>";
+  const auto steady = translated(flow(parts));
+  EXPECT_TRUE(has(joined(steady.warnings), "the face is a wall that blood does not pass; write Unsteady"));
+  EXPECT_TRUE(has(joined(steady.remarks.dropped), "Temporal_values_file_path:"));
+  parts.inlet = "<Type>Dir</Type>";
+  EXPECT_TRUE(has(joined(translated(flow(parts)).warnings), "in has no Value, which svMultiPhysics takes for 0"));
+}
+
+TEST(Translate, TakesCountsInDigitsAlone) {
+  const auto of = [](const char* steps) {
+    FlowParts parts;
+    parts.general =
+        fmt::format("<Number_of_time_steps>{}</Number_of_time_steps><Time_step_size>0.005</Time_step_size>", steps);
+    return refused(flow(parts));
+  };
+  EXPECT_TRUE(has(of("1e3"), "svMultiPhysics reads 1"));
+  const auto two = of("1600 100");
+  EXPECT_TRUE(has(two, "`1600 100` is no number"));
+  EXPECT_EQ(two.find("has no Number_of_time_steps"), std::string::npos) << two;
+}
+
 TEST(Translate, TakesUnitsFromTheSystem) {
   FlowParts parts;
   parts.equation = "<Density>1.06e-3</Density><Viscosity model=\"Newtonian\"><Value>0.004</Value></Viscosity>";

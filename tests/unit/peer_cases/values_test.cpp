@@ -26,6 +26,20 @@ TEST(ReadNumber, TakesFortransExponentFromFortransFilesOnly) {
   EXPECT_NE(trap->remedy.find("1.5e-4"), std::string::npos) << trap->remedy;
 }
 
+TEST(ReadInteger, TakesDigitsAlone) {
+  for (const auto dialect : {Dialect::xml, Dialect::inp, Dialect::svsolver}) {
+    EXPECT_EQ(read_integer("1600", dialect).value, 1600);
+    EXPECT_EQ(read_integer("+3", dialect).value, 3);
+    EXPECT_EQ(read_integer("-3", dialect).value, -3);
+    for (const char* text : {"", "1e3", "1000.0", "1.5", "1600 100", "3000000000", "e3"})
+      EXPECT_TRUE(read_integer(text, dialect).error) << text;
+  }
+  const auto trap = read_integer("1e3", Dialect::xml).error;
+  ASSERT_TRUE(trap);
+  EXPECT_EQ(trap->what, "`1e3` is no whole number in digits; svMultiPhysics reads 1, stopping in front of the e");
+  EXPECT_EQ(trap->remedy, "write 1000 for what it seems to mean");
+}
+
 TEST(ReadVector, TakesBracketsCommasAndBlanks) {
   const std::vector<double> expected{0, -0.5, 1};
   for (const char* text : {"(0, -0.5, 1 )", "0 -0.5 1", "{0,-0.5,1}", " ( 0.0,-.5,1.0)"})
