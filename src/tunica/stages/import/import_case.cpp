@@ -10,6 +10,7 @@
 #include "tunica/case/case.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/peer_cases/inputs.hpp"
 #include "tunica/peer_cases/translate.hpp"
 #include "tunica/stages/import/initial_state.hpp"
 #include "tunica/stages/import/nodal_prestress.hpp"
@@ -148,6 +149,9 @@ void write_files(const peer_cases::Translation& translation, const case_file::Ca
 ImportOutcome import_case(const ImportRequest& request) {
   const auto& units = peer_cases::unit_system(request.units);
   const auto file = peer_cases::read_peer_file(request.file);
+  if (peer_cases::is_input(file, request.case_file))
+    throw InputError(request.case_file.string(), "is a file that is imported, which the case file would overwrite",
+                     "choose another name by -o");
   const fs::path folder = request.case_file.parent_path();
   auto translation = peer_cases::translate(file, units, folder);
   ImportOutcome outcome{.dropped = {}, .changed = {}, .defaults = {}, .warnings = translation.warnings};
