@@ -56,8 +56,8 @@ void Conditions::nodal_table(const ConditionPart& part, const std::string& name,
   if (const auto period = context_.findings.periods.find(values.table); period != context_.findings.periods.end())
     table.add("period", with_unit(period->second, "s"),
               fmt::format("the last time, as {} repeats it", context_.peer()));
-  context_.remarks.changed.push_back(values.where + ": the values at the nodes are written to the file " +
-                                     values.table);
+  context_.remarks.changed.push_back(values.where + ": the values at the nodes belong in the file " + values.table +
+                                     ", which is written where mesh and values are there");
   context_.nodal.push_back(std::move(values));
 }
 

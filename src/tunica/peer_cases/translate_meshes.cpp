@@ -42,7 +42,8 @@ void translate_regions(Context& context, const PosedProblem& problem, const Entr
       if (part.id) made.known.push_back(*part.id);
     if (domains != nullptr) context.path(*domains);  // warns when it is not there
     array.add("file", yaml_text(made.file), "made of it");
-    context.remarks.changed.push_back(where + ": the regions of the elements are written to the file " + made.file);
+    context.remarks.changed.push_back(where + ": the regions of the elements belong in the file " + made.file +
+                                      ", which is written where the mesh is there");
     context.regions = std::move(made);
   } else {
     array.add("file", context.path(*domains), where);

@@ -65,7 +65,8 @@ void translate_start(Context& context, const PosedProblem& problem, CaseKey& top
     return context.missing(mesh, "initial fields of a wall without mass", "remove them, or write the density");
   state.file = context.file.path.stem().string() + "_start.checkpoint";
   top.add("start", yaml_text(state.file), sources);
-  context.changed(mesh, "the initial fields are written to the file " + state.file);
+  context.changed(mesh, "the initial fields belong in the file " + state.file +
+                            ", which is written where meshes and fields are there");
   context.initial = std::move(state);
 }
 

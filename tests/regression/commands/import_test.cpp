@@ -41,6 +41,22 @@ TEST_F(Import, WritesACaseFileAndListsWhatItChanged) {
   EXPECT_EQ(tunica("import solver.xml -o case.yaml --units cgs --overwrite"), 0) << printed();
 }
 
+TEST_F(Import, WrongValuesAreToldByTheirPlaceInThePeersFile) {
+  std::string negative = flow;
+  negative.replace(negative.find("1.06"), 4, "-1.06");
+  write("solver.xml", negative);
+  EXPECT_EQ(tunica("import solver.xml -o case.yaml --units cgs"), 2);
+  EXPECT_TRUE(printed_has("solver.xml:5 Density: fluid.density (case.yaml:"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "case.yaml"));
+}
+
+TEST_F(Import, DoesNotWriteOverItsInput) {
+  write("solver.xml", flow);
+  EXPECT_EQ(tunica("import solver.xml -o solver.xml --units cgs --overwrite"), 2);
+  EXPECT_TRUE(printed_has("the case file would overwrite"));
+  EXPECT_EQ(read("solver.xml"), flow);
+}
+
 TEST_F(Import, AsksForUnitsAndRefusesWrongOnes) {
   write("solver.xml", flow);
   EXPECT_EQ(tunica("import solver.xml -o case.yaml"), 2);

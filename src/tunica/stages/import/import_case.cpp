@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <sstream>
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
@@ -115,15 +117,47 @@ MeshTables read_tables(const std::vector<peer_cases::NodalValues>& all, bool wal
   return read;
 }
 
+/// "solver.xml:52 Density", the comment behind the line of the case that a message names, or behind the nearest line
+/// that it belongs to; empty where there is none.
+std::string source_of(const std::string& yaml, const std::string& where) {
+  const auto colon = where.rfind(':');
+  int number = 0;
+  if (colon == std::string::npos ||
+      std::from_chars(where.data() + colon + 1, where.data() + where.size(), number).ec != std::errc{})
+    return {};
+  std::vector<std::string> lines;
+  std::istringstream stream(yaml);
+  for (std::string line; static_cast<int>(lines.size()) < number && std::getline(stream, line);) lines.push_back(line);
+  std::size_t indent = std::string::npos;
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const auto begin = line->find_first_not_of(' ');
+    if (begin == std::string::npos || begin >= indent) continue;
+    indent = begin;
+    if (const auto comment = line->find(" # "); comment != std::string::npos) return line->substr(comment + 3);
+  }
+  return {};
+}
+
+/// A message about the case names the place in the peer's file.
+void name_source(const std::string& yaml, Problem& problem) {
+  if (const auto source = source_of(yaml, problem.where); !source.empty())
+    problem.where = fmt::format("{}: {}", source, problem.where);
+}
+
 /// The case that the text poses, with warnings of values that look like slips. What it does not take is a value beyond
 /// its range, which the peer's file holds.
 config::Parsed<case_file::Case> read(const std::string& yaml, const fs::path& file) {
   const config::Origin origin{.name = file.string(), .folder = file.parent_path(), .check_files = false};
   try {
-    return config::parse_document(case_file::Case::schema(), case_file::case_document(yaml, file), origin);
+    auto posed = config::parse_document(case_file::Case::schema(), case_file::case_document(yaml, file), origin);
+    for (Problem& warning : posed.warnings) name_source(yaml, warning);
+    return posed;
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) problem.where += ", of the case file that would be written";
+    for (Problem& problem : problems) {
+      name_source(yaml, problem);
+      problem.where += ", of the case file that would be written";
+    }
     throw InputError(std::move(problems));
   }
 }
