@@ -6,6 +6,7 @@
 #include <limits>
 #include <regex>
 
+#include "tunica/base/digits.hpp"
 #include "tunica/config/description.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
@@ -44,11 +45,11 @@ std::string stage_table(const Results& r) {
 }
 
 /// A number without the noise of its last digits; other text as it is.
-std::string readable(const std::string& text) {
+std::string setting(const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole ? fmt::format("{:.12g}", number) : text;
+  return whole ? fmt::format("{}", base::without_noise(number)) : text;
 }
 
 /// What went into the run, key by key, in SI units.
@@ -58,7 +59,7 @@ std::string settings_table(const Results& r) {
   std::vector<std::vector<std::string>> rows;
   const json settings = at(at(run->second, "inputs"), "settings");
   for (const auto& [key, value] : settings.items())
-    rows.push_back({drawing::page::escaped(key), drawing::page::escaped(readable(value.get<std::string>()))});
+    rows.push_back({drawing::page::escaped(key), drawing::page::escaped(setting(value.get<std::string>()))});
   return "<details class=\"fine\"><summary>All settings of the run, in SI units</summary>\n" +
          drawing::page::table({"key", "value"}, rows) + "</details>\n";
 }
