@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
 #include "tunica/case/plausible.hpp"
+#include "tunica/mesh/lumen_side.hpp"
 
 namespace tunica::artifacts {
 
@@ -112,11 +114,25 @@ std::vector<AcrossPart> resolution(const case_file::Case& c, const mesh::MeshDat
   for (std::size_t n = 0; n < torn.size(); ++n) torn[n] = is_flap(across.wall[n]) && is_flap(across.facing[n]);
   int sets = 0, tears = 0;
   const auto set = connected(elements, torn, sets);
-  std::vector<int> nodes(static_cast<std::size_t>(sets), 0);
-  for (const int k : set)
-    if (k >= 0) ++nodes[static_cast<std::size_t>(k)];
+  // Where the mesh tells the lumens apart, a tear has both; elsewhere a flap that is curled faces itself, too.
+  const auto side = std::find_if(data.node_fields.begin(), data.node_fields.end(),
+                                 [](const auto& field) { return field.name == mesh::lumen_side; });
+  struct Nodes {
+    int all = 0;
+    bool true_lumen = false, false_lumen = false;
+  };
+  std::vector<Nodes> of_set(static_cast<std::size_t>(sets));
+  for (std::size_t n = 0; n < set.size(); ++n) {
+    if (set[n] < 0) continue;
+    auto& nodes = of_set[static_cast<std::size_t>(set[n])];
+    ++nodes.all;
+    const bool known = side != data.node_fields.end() && !std::isnan(side->values[n]);
+    nodes.true_lumen = nodes.true_lumen || !known || side->values[n] > 0;
+    nodes.false_lumen = nodes.false_lumen || !known || !(side->values[n] > 0);
+  }
   for (int k = 0; k < sets; ++k)
-    if (nodes[static_cast<std::size_t>(k)] >= fewest_nodes_of_tear)
+    if (const auto& nodes = of_set[static_cast<std::size_t>(k)];
+        nodes.all >= fewest_nodes_of_tear && nodes.true_lumen && nodes.false_lumen)
       add(fmt::format("tear {}", ++tears), [&](std::int64_t n) { return set[n] == k; });
   return parts;
 }

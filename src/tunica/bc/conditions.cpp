@@ -31,7 +31,13 @@ constexpr std::array<Traits, std::variant_size_v<Condition>> traits = {{{"no_sli
 std::string_view name(const Condition& condition) { return traits[condition.index()].name; }
 bool fits_lumen(const Condition& condition) { return traits[condition.index()].lumen; }
 bool fits_wall(const Condition& condition) { return traits[condition.index()].wall; }
-bool prescribes_velocity(const Condition& condition) { return traits[condition.index()].velocity; }
+
+bool prescribes_velocity(const Condition& condition) {
+  constexpr Axes all{true, true, true};
+  if (const auto* velocity = std::get_if<Velocity>(&condition)) return velocity->directions == all;
+  if (const auto* profile = std::get_if<VelocityProfile>(&condition)) return profile->directions == all;
+  return traits[condition.index()].velocity;
+}
 
 Axes held_axes(const Condition& condition) {
   if (const auto* fixed = std::get_if<Fixed>(&condition)) return fixed->axes();

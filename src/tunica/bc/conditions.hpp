@@ -43,10 +43,12 @@ struct NoSlip {
   static config::Schema<NoSlip> schema();
 };
 
-/// v = value * course(t), the same at all nodes of the face.
+/// v = value * course(t), the same at all nodes of the face, along `directions`; along the others the blood is free and
+/// no traction acts.
 struct Velocity {
   Vec3<double> value{};       ///< m/s
   WaveformInput course{1.0};  ///< dimensionless
+  Axes directions{true, true, true};
   static config::Schema<Velocity> schema();
 };
 
@@ -78,7 +80,7 @@ struct Traction {
 
 /// v(x, t) at the nodes of a face, by formulas or by a table of points and perhaps times, times course(t). The nodes
 /// get what these say: the flow through the face is that of their interpolation. Exactly one of `velocity`, `speed` and
-/// `table` is given.
+/// `table` is given. Along `directions` only, as Velocity.
 struct VelocityProfile {
   using Interpolation = OverFace::Interpolation;
   std::vector<std::string> velocity{};         ///< formulas (formula.hpp) of the three components
@@ -88,6 +90,7 @@ struct VelocityProfile {
   double unit = 1.0, length_unit = 1.0;        ///< of velocities [m/s] and coordinates [m], in formulas and table
   Interpolation interpolation = Interpolation::linear;
   WaveformInput course{1.0};  ///< dimensionless
+  Axes directions{true, true, true};
   /// The table, which is given.
   OverFace over_face() const { return {table.value(), period, unit, length_unit, interpolation}; }
   static config::Schema<VelocityProfile> schema();
@@ -184,7 +187,7 @@ bool fits_wall(const Condition& condition);
 bool undeforming(const Condition& condition);
 /// Axes along which the displacement of a wall face is given, be it zero; those of a normal direction are none.
 Axes held_axes(const Condition& condition);
-/// Does it prescribe the velocity (and so leave the pressure open)?
+/// Does it prescribe the velocity along all axes (and so leave the pressure open)?
 bool prescribes_velocity(const Condition& condition);
 
 }  // namespace tunica::bc

@@ -143,6 +143,27 @@ Schema<Source> source_schema(const config::Dimension& due) {
       .section("table", emplace<TableSource>, table_schema(due), "Time course from a file");
 }
 
+/// Axes along which something is given, at least one.
+template <class C>
+Schema<C>& add_directions(Schema<C>& schema, const char* meaning, const char* without) {
+  return schema.any_of("directions", &C::directions, {"x", "y", "z"}, meaning)
+      .by_default()
+      .check([without](const C& c, Problems& problems) {
+        if (c.directions == Axes{})
+          problems.add("directions", "names no axis",
+                       fmt::format("name at least one, or use the condition `{}`", without));
+      });
+}
+
+/// A value along an axis that is free would have no effect.
+template <class C>
+void check_free_axes(const C& c, const Vec3<double>& value, const char* what, Problems& problems) {
+  for (int i = 0; i < 3; ++i)
+    if (!c.directions[static_cast<std::size_t>(i)] && value[i] != 0)
+      problems.add("value", fmt::format("{} along {}, which `directions` leaves free", what, "xyz"[i]),
+                   "give 0 there, or name the axis in `directions`");
+}
+
 /// Keys of a time course: value | step | table, scale, ramp_time.
 Schema<WaveformInput> waveform_schema(const config::Dimension& due) {
   return Schema<WaveformInput>("waveform", "Time course of a boundary value.")
@@ -190,7 +211,10 @@ Schema<OverFace> over_face_schema(const config::Dimension& due, const char* colu
       .by_default();
 }
 
-constexpr const char *fixed_beside_load = "Of a wall face: axes along which it does not move, under the load",
+constexpr const char *velocity_directions =
+                         "Axes along which the velocity is given; along the others the blood is free and no traction "
+                         "acts",
+                     *fixed_beside_load = "Of a wall face: axes along which it does not move, under the load",
                      *moves_as_a_whole =
                          "Of a wall face: it moves as a whole under the load and does not turn, like a "
                          "plate bonded to it";
@@ -200,12 +224,15 @@ constexpr const char *fixed_beside_load = "Of a wall face: axes along which it d
 Schema<NoSlip> NoSlip::schema() { return Schema<NoSlip>("no_slip", "Blood at rest at a rigid wall."); }
 
 Schema<Velocity> Velocity::schema() {
-  return Schema<Velocity>("velocity", "The same velocity at all nodes of the face.")
-      .quantities("value", &Velocity::value, dimension::velocity, anything(), "Velocity vector x, y, z")
+  Schema<Velocity> schema("velocity", "The same velocity at all nodes of the face.");
+  schema.quantities("value", &Velocity::value, dimension::velocity, anything(), "Velocity vector x, y, z")
       .plausible("-10 m/s", "10 m/s")
       .section("waveform", &Velocity::course, waveform_schema(dimension::none),
                "Factor over time; constant when left out")
       .optional();
+  return add_directions(schema, velocity_directions, "pressure").check([](const Velocity& c, Problems& problems) {
+    check_free_axes(c, c.value, "is a velocity", problems);
+  });
 }
 
 Schema<Flow> Flow::schema() {
@@ -305,23 +332,16 @@ Schema<Displacement> Displacement::schema() {
       .section("over_face", &Displacement::over_face,
                over_face_schema(dimension::length, "ux, uy, uz", "Unit of the displacement"),
                "Displacements at points");
-  return Schema<Displacement>("displacement", "A wall face that is moved: displacement over time.")
+  Schema<Displacement> schema("displacement", "A wall face that is moved: displacement over time.");
+  schema
       .include(
           [](Displacement & d) -> auto& { return d; }, size)
       .section("waveform", &Displacement::course, waveform_schema(dimension::none),
                "Factor over time; constant when left out")
-      .optional()
-      .any_of("directions", &Displacement::directions, {"x", "y", "z"},
-              "Axes along which the face is moved; it is free along the others")
-      .by_default()
-      .check([](const Displacement& c, Problems& problems) {
-        for (int i = 0; i < 3; ++i)
-          if (!c.directions[static_cast<std::size_t>(i)] && c.value[i] != 0)
-            problems.add("value", fmt::format("moves the face along {}, which `directions` leaves free", "xyz"[i]),
-                         "give 0 there, or name the axis in `directions`");
-        if (c.directions == Axes{})
-          problems.add("directions", "names no axis", "name at least one, or use the condition `free`");
-      });
+      .optional();
+  return add_directions(schema, "Axes along which the face is moved; it is free along the others", "free")
+      .check(
+          [](const Displacement& c, Problems& problems) { check_free_axes(c, c.value, "moves the face", problems); });
 }
 
 Schema<Free> Free::schema() { return Schema<Free>("free", "No traction on the face."); }
@@ -368,6 +388,9 @@ void check_profile(const VelocityProfile& profile, Problems& problems) {
       for (const auto& p : error.problems()) problems.add(key, p.what, p.remedy);
     }
   };
+  if (profile.speed && profile.directions != Axes{true, true, true})
+    problems.add("directions", "are given beside `speed`, which is along the normal of the face",
+                 "give `velocity`, three formulas, in its place");
   for (const auto& text : profile.velocity) check_formula("velocity", text);
   if (profile.speed) check_formula("speed", *profile.speed);
 }
@@ -375,10 +398,10 @@ void check_profile(const VelocityProfile& profile, Problems& problems) {
 }  // namespace
 
 Schema<VelocityProfile> VelocityProfile::schema() {
-  return Schema<VelocityProfile>("profile",
+  Schema<VelocityProfile> schema("profile",
                                  "Velocity as a function of place and time, by formulas of x, y, z (in `length_unit`) "
-                                 "and t (in s), or by a table of points.")
-      .texts("velocity", &VelocityProfile::velocity, "Formulas of the components x, y, z of the velocity")
+                                 "and t (in s), or by a table of points.");
+  schema.texts("velocity", &VelocityProfile::velocity, "Formulas of the components x, y, z of the velocity")
       .by_default()
       .text("speed", &VelocityProfile::speed, "Formula of the speed into the domain, along the mean normal of the face")
       .file(
@@ -398,6 +421,7 @@ Schema<VelocityProfile> VelocityProfile::schema() {
                "Factor over time; constant when left out")
       .optional()
       .check(check_profile);
+  return add_directions(schema, velocity_directions, "pressure");
 }
 
 Schema<Condition> condition_schema() {

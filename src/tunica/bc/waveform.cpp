@@ -323,6 +323,17 @@ double Waveform::mean() const {
   return scale_ * integral / (p.times.back() - p.times.front());
 }
 
+std::optional<FourierSeries> Waveform::series() const {
+  const auto* own = std::get_if<FourierSeries>(&shape_);
+  if (own == nullptr || ramp_time_ != 0.0) return std::nullopt;
+  FourierSeries series = *own;
+  for (auto* numbers : {&series.cosine, &series.sine})
+    for (double& number : *numbers) number *= scale_;
+  series.value *= scale_;
+  series.slope *= scale_;
+  return series;
+}
+
 std::optional<double> Waveform::period() const {
   if (const auto* series = std::get_if<FourierSeries>(&shape_)) return series->period;
   const auto* polynomial = std::get_if<Polynomial>(&shape_);
@@ -336,7 +347,7 @@ Waveform make_waveform(const WaveformInput& input) {
     if (const auto* step = std::get_if<Step>(&input.source)) return Waveform::step(*step);
     const auto& source = std::get<TableSource>(input.source);
     if (is_fourier_series(source.file))
-      return Waveform::fourier_series(read_fourier_series(source.file), source.file.path.string());
+      return Waveform::fourier_series(read_fourier_series(source.file)[0], source.file.path.string());
     return Waveform::table(read_table(source.file), source.options, source.file.path.string());
   };
   return plain().scaled(input.scale).ramped(input.ramp_time);

@@ -33,7 +33,7 @@ enum class TableFormat {
   automatic,    ///< by the extension: .csv, .flow
   csv,          ///< comments (#), one header line, then numbers separated by commas
   simvascular,  ///< first line "points modes", then "t value" lines
-  fourier       ///< .fcs: "start period", "value slope" of the trend, number of modes, then a line for each: "re im"
+  fourier       ///< .fcs: start, period, value and slope of the trend, number of modes, then re and im of each
 };
 
 /// Where a table stands and how its columns become SI.
@@ -61,8 +61,9 @@ struct FourierSeries {
   double value = 0.0, slope = 0.0;  ///< SI, SI/s
 };
 
-/// Reads the coefficients of a series; those of the file are of exp(i k omega h). Throws InputError with file and line.
-FourierSeries read_fourier_series(const TableFile& file);
+/// Reads the coefficients of the series of each component; those of the file are of exp(i k omega h). Throws InputError
+/// with file and line.
+std::vector<FourierSeries> read_fourier_series(const TableFile& file, std::size_t components = 1);
 bool is_fourier_series(const TableFile& file);  ///< by format, or by the extension .fcs
 
 /// Reads a table; of the coefficients of a series, values over a period. Throws InputError with file and line: missing
@@ -120,7 +121,8 @@ class Waveform {
   /// Time average over one period (exact for the chosen interpolation), over the table when it is not periodic, the
   /// value itself of a constant, the plateau of a step. Without the ramp.
   double mean() const;
-  std::optional<double> period() const;  ///< s; none when not periodic
+  std::optional<double> period() const;         ///< s; none when not periodic
+  std::optional<FourierSeries> series() const;  ///< where the whole course is one
 
  private:
   struct Constant {

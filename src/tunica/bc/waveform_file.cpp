@@ -129,38 +129,50 @@ bool is_simvascular(const TableFile& file) {
                    "set `format` to csv or simvascular");
 }
 
-FourierSeries read_fourier_series(const TableFile& file) {
+std::vector<FourierSeries> read_fourier_series(const TableFile& file, std::size_t components) {
   const char* remedy =
-      "the lines are \"start period\", \"value slope\" of the trend, the number of modes, and \"re im\" for each mode";
+      "the numbers are start and period, value and slope of the trend, the number of modes, and for each mode its real "
+      "and imaginary part; of several components all real parts before all imaginary ones";
   const auto lines = files::read_lines(file.path, remedy);
-  const auto where = [&](std::size_t n) { return fmt::format("{}:{}", file.path.string(), lines[n].number); };
-  const auto numbers = [&](std::size_t n, std::size_t count) {
-    if (n >= lines.size()) throw InputError(where(lines.size() - 1), "the file ends here", remedy);
-    std::vector<double> values;
-    for (const auto cell : split_blanks(lines[n].text)) values.push_back(files::parse_number(cell, where(n), ""));
-    if (values.size() != count)
-      throw InputError(where(n), fmt::format("{} entries, not {}", values.size(), count), remedy);
-    return values;
+  const auto where = [&](std::size_t line) { return fmt::format("{}:{}", file.path.string(), lines[line].number); };
+  struct Number {
+    double value;
+    std::size_t line, beside;  // `beside`: how many there are on its line
   };
-  const auto times = numbers(0, 2), trend = numbers(1, 2);
-  const double modes = numbers(2, 1)[0];
-  if (!(modes >= 1 && modes <= 1e6) || modes != std::floor(modes) ||
-      lines.size() != 3 + static_cast<std::size_t>(modes))
-    throw InputError(where(2), fmt::format("{} modes, and {} lines follow", modes, lines.size() - 3), remedy);
-  FourierSeries series{
-      .start = times[0] * file.time_unit, .period = times[1] * file.time_unit, .cosine = {}, .sine = {}};
-  series.value = trend[0] * file.value_unit;
-  series.slope = trend[1] * file.value_unit / file.time_unit;
-  for (std::size_t n = 3; n < lines.size(); ++n) {
-    const auto mode = numbers(n, 2);
-    series.cosine.push_back(mode[0] * file.value_unit);
-    series.sine.push_back(-mode[1] * file.value_unit);
+  std::vector<Number> numbers;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const auto cells = split_blanks(lines[n].text);
+    for (const auto cell : cells)
+      numbers.push_back({files::parse_number(text::decimal_exponent(cell), where(n), ""), n, cells.size()});
   }
-  return series;
+  const std::size_t head = 3 + 2 * components;
+  if (numbers.size() < head) throw InputError(where(lines.size() - 1), "the file ends before its modes", remedy);
+  const Number& modes = numbers[head - 1];
+  const bool counts = modes.value >= 1 && modes.value <= 1e6 && modes.value == std::floor(modes.value);
+  const std::size_t follow = numbers.size() - head;
+  if (!counts || follow != 2 * components * static_cast<std::size_t>(modes.value))
+    throw InputError(where(modes.line),
+                     fmt::format("{} modes of {} numbers, and {} numbers follow", modes.value, 2 * components, follow),
+                     remedy);
+  // svMultiPhysics writes value and slope of each component on a line of its own, svFSI all values before all slopes.
+  const bool in_pairs = numbers[2].beside == 2;
+  std::vector<FourierSeries> all;
+  for (std::size_t c = 0; c < components; ++c) {
+    FourierSeries& series = all.emplace_back();
+    series.start = numbers[0].value * file.time_unit;
+    series.period = numbers[1].value * file.time_unit;
+    series.value = numbers[in_pairs ? 2 + 2 * c : 2 + c].value * file.value_unit;
+    series.slope = numbers[in_pairs ? 3 + 2 * c : 2 + components + c].value * file.value_unit / file.time_unit;
+    for (std::size_t n = head + c; n < numbers.size(); n += 2 * components) {
+      series.cosine.push_back(numbers[n].value * file.value_unit);
+      series.sine.push_back(-numbers[n + components].value * file.value_unit);
+    }
+  }
+  return all;
 }
 
 Table read_table(const TableFile& file) {
-  if (is_fourier_series(file)) return points_of(read_fourier_series(file), file.path.string());
+  if (is_fourier_series(file)) return points_of(read_fourier_series(file)[0], file.path.string());
   Table table = is_simvascular(file) ? read_simvascular(file) : read_csv(file);
   if (table.times.size() < 2)
     throw InputError(file.path.string(), fmt::format("{} points, at least 2 are needed", table.times.size()),

@@ -21,6 +21,8 @@ namespace tunica::coupling {
 
 namespace {
 
+constexpr bc::Axes every_axis{true, true, true};
+
 /// Flow out of the lumen relative to the moving mesh, of the triangles that this rank owns [m^3/s].
 double owned_flow(const distributed::DistributedMesh& mesh, const distributed::Face& face, const FieldsView& fields) {
   double sum = 0;
@@ -58,7 +60,7 @@ struct Boundaries::Builder {
   Boundaries& b;
   const distributed::DistributedMesh& mesh;
   std::vector<Held> held, mesh_held, symmetric;  // `symmetric`: by planes of symmetry alone
-  std::vector<std::size_t> symmetry_faces{};
+  std::vector<std::size_t> symmetry_faces{}, partly_free{};
   std::vector<char> interface_node;
   const std::vector<std::pair<std::string, Course>>& inflows;
 
@@ -99,34 +101,51 @@ struct Boundaries::Builder {
       for (const auto node : edges) visit(node);
   }
 
+  void hold(std::int32_t node, const bc::Axes& axes) {
+    if (axes == every_axis) return held[node].all();
+    for (int i = 0; i < 3; ++i)
+      if (axes[static_cast<std::size_t>(i)])
+        held[node].direction({{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
+  }
   // In FSI the rim of an opening belongs to the wall; nodes that no_slip holds stay at rest.
   template <class Visit>
-  void hold_inner(const distributed::Face& face, Visit visit_owned) {
+  void hold_inner(const distributed::Face& face, const bc::Axes& axes, Visit visit_owned) {
     std::vector<char> done(mesh.nodes(), 0);
     for_each_node(face, [&](std::int32_t node) {
       if (interface_node[node] || done[node]) return;
       done[node] = 1;
-      held[node].all();
+      hold(node, axes);
       if (node < mesh.owned_nodes) visit_owned(node);
     });
+  }
+  // Where the velocity is free along some axes the blood may turn back, as at an outlet without pressure.
+  void leave_open(std::size_t index, const bc::Axes& axes) {
+    if (axes == every_axis) return;
+    b.loads_.bind_open(index);
+    partly_free.push_back(index);
   }
   static Course course_of(bc::Waveform waveform) {
     return [waveform = std::move(waveform)](double t) { return waveform.value(t); };
   }
-  void prescribe(const distributed::Face& face, Course course,
+  void prescribe(const distributed::Face& face, const bc::Axes& axes, Course course,
                  const std::function<Vec3<double>(std::int32_t)>& velocity) {
     const std::size_t number = b.courses_.size();
     b.courses_.push_back(std::move(course));
-    hold_inner(face, [&](std::int32_t node) { b.prescribed_.push_back({node, velocity(node), number}); });
+    hold_inner(face, axes, [&](std::int32_t node) { b.prescribed_.push_back({node, velocity(node), number, axes}); });
   }
-  void prescribe(const distributed::Face& face, const VectorField& velocity) {
+  void prescribe(const distributed::Face& face, const bc::Axes& axes, const VectorField& velocity) {
     const std::size_t field = b.velocity_fields_.size();
     b.velocity_fields_.push_back(velocity);
-    hold_inner(face, [&](std::int32_t node) { b.field_nodes_.push_back({node, field, identity<double>()}); });
+    hold_inner(face, axes, [&](std::int32_t node) {
+      b.field_nodes_.push_back({node, field, identity<double>(), axes});
+    });
   }
 
   // What an opening prescribes does not cross a plane of symmetry that it meets.
   void project_on_symmetry() {
+    parallel::agree(mesh.comm, [&] {
+      for (const auto index : partly_free) require_aligned(mesh.faces[index]);
+    });
     for (auto& p : b.prescribed_) p.velocity = symmetric[p.node].P * p.velocity;
     for (auto& p : b.field_nodes_) p.allowed = symmetric[p.node].P;
   }
@@ -173,7 +192,8 @@ struct Boundaries::Builder {
     for_each_node(mesh.faces[index], [&](std::int32_t node) { held[node].all(); });
   }
   void operator()(std::size_t index, const bc::Velocity& c) {
-    prescribe(mesh.faces[index], course_of(waveform(c.course)), [&](std::int32_t) { return c.value; });
+    prescribe(mesh.faces[index], c.directions, course_of(waveform(c.course)), [&](std::int32_t) { return c.value; });
+    leave_open(index, c.directions);
   }
   void operator()(std::size_t index, const bc::Flow& c) {
     const WholeFace whole = gather_face(mesh, mesh.faces[index]);
@@ -185,7 +205,7 @@ struct Boundaries::Builder {
         own != inflows.end() ? own->second : course_of(parallel::agree(mesh.comm, [&] { return bc::inflow(c); }));
     parallel::agree(mesh.comm, [&] { require_upright(mesh.faces[index], profile.normal); });
     b.inflows_.push_back({index, b.courses_.size()});
-    prescribe(mesh.faces[index], std::move(flow), [&](std::int32_t node) {
+    prescribe(mesh.faces[index], every_axis, std::move(flow), [&](std::int32_t node) {
       return profile.velocity(static_cast<std::size_t>(whole.find(mesh.global_ids[node])), 1.0);
     });
   }
@@ -222,11 +242,7 @@ struct Boundaries::Builder {
     for_each_node(face, [&](std::int32_t wall_node) { held[mesh.host[wall_node]].direction(normal); });
   }
   void hold_along(std::size_t index, const bc::Axes& axes) {
-    for_each_node(mesh.faces[index], [&](std::int32_t wall_node) {
-      for (int i = 0; i < 3; ++i)
-        if (axes[static_cast<std::size_t>(i)])
-          held[mesh.host[wall_node]].direction({{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}});
-    });
+    for_each_node(mesh.faces[index], [&](std::int32_t wall_node) { hold(mesh.host[wall_node], axes); });
   }
   // A face that moves as a whole is held along whatever one of its nodes is held along.
   void tie(const distributed::Face& face, const std::vector<char>& moved) {
@@ -289,18 +305,33 @@ struct Boundaries::Builder {
   void operator()(std::size_t index, const bc::VelocityProfile& c) {
     const auto& face = mesh.faces[index];
     const auto course = waveform(c.course);
+    leave_open(index, c.directions);
     if (c.table) {
       const auto table =
           parallel::agree(mesh.comm, [&] { return bc::PointTable(c.over_face(), bc::velocity_columns); });
       if (table.steady())
-        prescribe(face, course_of(course), [&](std::int32_t node) { return table.value(mesh.points[node]); });
+        prescribe(face, c.directions, course_of(course),
+                  [&](std::int32_t node) { return table.value(mesh.points[node]); });
       else
-        prescribe(face,
+        prescribe(face, c.directions,
                   [course, table](const Vec3<double>& x, double t) { return course.value(t) * table.value(x, t); });
       return;
     }
-    prescribe(face, [course, velocity = bc::velocity_by_formula(c, mean_normal(mesh, face))](
-                        const Vec3<double>& x, double t) { return course.value(t) * velocity(x, t); });
+    prescribe(face, c.directions,
+              [course, velocity = bc::velocity_by_formula(c, mean_normal(mesh, face))](
+                  const Vec3<double>& x, double t) { return course.value(t) * velocity(x, t); });
+  }
+
+  // Along some axes a velocity can be given only where a plane of symmetry is at right angles to one of them.
+  void require_aligned(const distributed::Face& face) const {
+    for_each_node(face, [&](std::int32_t node) {
+      const auto& P = symmetric[node].P;
+      if (std::abs(P(0, 1)) + std::abs(P(0, 2)) + std::abs(P(1, 2)) > 1e-3)
+        throw InputError("boundary." + face.name,
+                         "gives a velocity along some axes (`directions`) and meets a plane of symmetry that is at "
+                         "right angles to none of them",
+                         "turn the mesh so that the plane is, or give the velocity along all axes");
+    });
   }
 
   // The flow of a profile along n is exact only where no plane of symmetry takes a part of n away.
@@ -364,7 +395,7 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   apply([&](const bc::Condition& c) { return !symmetry(c) && !no_slip(c); });
   apply(no_slip);
   builder.tie_faces(input);
-  for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), field);
+  for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), every_axis, field);
   for (const auto& [name, field] : input.traction_fields) {
     mesh.face(name);
     loads_.bind(TractionField{index_of[name], field});
@@ -470,12 +501,13 @@ void Boundaries::prescribe(double t, std::span<double> velocity_pressure) const 
   std::vector<double> values;
   values.reserve(courses_.size());
   for (const auto& course : courses_) values.push_back(course(t));
-  for (const auto& p : prescribed_)
-    for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = values[p.course] * p.velocity[i];
-  for (const auto& p : field_nodes_) {
-    const Vec3<double> v = p.allowed * velocity_fields_[p.field](mesh_.points[p.node], t);
-    for (int i = 0; i < 3; ++i) velocity_pressure[at(p.node) + i] = v[i];
-  }
+  const auto set = [&](std::int32_t node, const bc::Axes& axes, const Vec3<double>& v) {
+    for (int i = 0; i < 3; ++i)
+      if (axes[static_cast<std::size_t>(i)]) velocity_pressure[at(node) + i] = v[i];
+  };
+  for (const auto& p : prescribed_) set(p.node, p.axes, values[p.course] * p.velocity);
+  for (const auto& p : field_nodes_)
+    set(p.node, p.axes, p.allowed * velocity_fields_[p.field](mesh_.points[p.node], t));
   if (pressure_node_ >= 0) velocity_pressure[at(pressure_node_) + 3] = held_pressure_;
   mesh_.halo.update(velocity_pressure, 4);
 }

@@ -73,6 +73,7 @@ class Boundaries {
     std::int32_t node;
     Vec3<double> velocity;  ///< per unit of the course
     std::size_t course;
+    bc::Axes axes{true, true, true};  ///< along these
   };
 
   /// A face with a condition `flow`, and the flow out of the lumen through it [m^3/s].
@@ -102,6 +103,7 @@ class Boundaries {
     std::int32_t node;
     std::size_t field;     ///< in velocity_fields_
     Mat3<double> allowed;  ///< projector on the planes of symmetry that the node lies on
+    bc::Axes axes;         ///< along these
   };
   struct OutletFace {
     std::size_t face;

@@ -168,14 +168,14 @@ TUNICA_INLINE Vec3<T> momentum_residual(const Flow<T>& f, double rho, int q) {
   return r;
 }
 
-/// Stabilisation parameters, eqs (2.2), (2.3). G is the metric of the parent tetrahedron with the corners 0, e1, e2,
-/// e3; it therefore depends, mildly, on which node comes first. Where v' vanishes tau_B is bounded, so that the terms
-/// with it vanish too.
+/// Stabilisation parameters, eqs (2.2), (2.3). G is the metric of the parent tetrahedron with the corners e1, e2, e3,
+/// 0; it therefore depends, mildly, on which node comes last: the origin is where related codes have it. Where v'
+/// vanishes tau_B is bounded, so that the terms with it vanish too.
 template <class T>
 TUNICA_INLINE Tau<T> stabilisation(const Flow<T>& f, double dt, const Parameters& parameters) {
   const double rho = parameters.density;
   Vec3<T> xi[3];  // gradients of the parent coordinates
-  for (int k = 0; k < 3; ++k) xi[k] = f.shape.dN[k + 1];
+  for (int k = 0; k < 3; ++k) xi[k] = f.shape.dN[k];
   const auto metric = [&xi](const Vec3<T>& x) {
     const T s0 = dot(xi[0], x), s1 = dot(xi[1], x), s2 = dot(xi[2], x);
     return s0 * s0 + s1 * s1 + s2 * s2;

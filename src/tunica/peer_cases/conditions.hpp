@@ -52,6 +52,8 @@ class Conditions {
   void lumen_velocity(const ConditionPart& part);
   void lumen_flow(const ConditionPart& part);
   void lumen_velocity_in_time(const ConditionPart& part);
+  void lumen_velocity_along(const ConditionPart& part, const std::vector<int>& along);
+  void add_directions(const ConditionPart& part, const std::vector<int>& along, CaseKey& to);
   void lumen_velocity_of_shape(const ConditionPart& part);
   /// Notes values that are to be written, into the file `name` beside the case; `table` says where they are.
   void nodal_table(const ConditionPart& part, const std::string& name, const char* unit, NodalValues values,
@@ -100,5 +102,7 @@ class Conditions {
 
 /// "[x, y]".
 std::string names_of(const std::vector<int>& axes);
+/// "[size, zero, zero]" of the axis x.
+std::string along_axes(const std::vector<int>& axes, const std::string& size, const std::string& zero);
 
 }  // namespace tunica::peer_cases

@@ -21,12 +21,10 @@ void Conditions::lumen_velocity(const ConditionPart& part) {
                      "to that axis");
     return;
   }
-  if (!held.empty())
-    return context_.missing(*direction, "a velocity that is given along some axes and free along others",
-                            "give all directions");
   if (const Entry* integral = part.entry.find("Impose_on_state_variable_integral");
       integral != nullptr && context_.flag(part.entry, integral->key))
     return context_.missing(*integral, "blood whose displacement is given", "give its velocity");
+  if (!held.empty()) return lumen_velocity_along(part, held);
   const bool flux = context_.flag(part.entry, "Impose_flux");
   if (profile_is(part, "User_defined") || (profile_is(part, "Parabolic") && !flux))
     return lumen_velocity_of_shape(part);
@@ -73,14 +71,40 @@ const Entry* Conditions::file_in_time(const ConditionPart& part) {
 }
 
 void Conditions::lumen_velocity_in_time(const ConditionPart& part) {
-  if (!axes(part.entry).empty())
-    return context_.missing(*part.entry.find("Effective_direction"),
-                            "a velocity that is given along some axes and free along others", "give all directions");
   const Entry* file = file_in_time(part);
   if (file == nullptr) return;
   const auto kind = file->key == "Bct_file_path" ? NodalValues::Kind::bct : NodalValues::Kind::in_time;
-  nodal_table(part, "velocities", "m/s", {.kind = kind, .file = context_.located(*file), .where = file->where()},
-              face(part).section("profile", part.entry.where()));
+  const auto along = axes(part.entry);
+  auto& profile = face(part).section("profile", part.entry.where());
+  nodal_table(part, "velocities", "m/s",
+              {.kind = kind, .file = context_.located(*file), .where = file->where(), .axes = along}, profile);
+  add_directions(part, along, profile);
+}
+
+void Conditions::add_directions(const ConditionPart& part, const std::vector<int>& along, CaseKey& to) {
+  if (!along.empty()) to.add("directions", names_of(along), context_.source(part.entry, "Effective_direction"));
+}
+
+/// The same number along each of the axes; along the others the blood is free.
+void Conditions::lumen_velocity_along(const ConditionPart& part, const std::vector<int>& along) {
+  const bool whole = profile_is(part, "Flat") && !context_.flag(part.entry, "Impose_flux") &&
+                     !context_.flag(part.entry, "Zero_out_perimeter", true);
+  if (!whole && !part.vanishes()) {
+    auto shape = shape_of(part, true);
+    shape.axes = along;
+    auto& profile = face(part).section("profile", part.entry.where());
+    nodal_table(part, "velocities", "m/s", std::move(shape), profile);
+    add_directions(part, along, profile);
+    return course(part, "", profile.section("waveform", part.entry.where()));
+  }
+  const bool unsteady = part.time == Dependence::unsteady;
+  auto& velocity = face(part).section("velocity", context_.source(part.entry, "Type"));
+  velocity.add("value",
+               along_axes(along, with_unit(unsteady ? 1.0 : part.scalar(), context_.units.velocity),
+                          with_unit(0.0, context_.units.velocity)),
+               context_.source(part.entry, unsteady ? "Temporal_values_file_path" : "Value"));
+  add_directions(part, along, velocity);
+  if (unsteady) table(part, "", velocity.section("waveform", part.entry.where()));
 }
 
 NodalValues Conditions::shape_of(const ConditionPart& part, bool zero_rim) {

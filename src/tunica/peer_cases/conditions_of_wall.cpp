@@ -31,13 +31,9 @@ void Conditions::wall_motion(const ConditionPart& part) {
   // One number, that of all axes that are given.
   const bool unsteady = part.time == Dependence::unsteady;
   const std::string size = with_unit(unsteady ? 1.0 : part.scalar(), context_.units.length);
-  std::string value;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool given = std::find(held.begin(), held.end(), axis) != held.end();
-    value += fmt::format("{}{}", axis == 0 ? "" : ", ", given ? size : with_unit(0.0, context_.units.length));
-  }
   auto& moved = face(part).section("displacement", context_.source(part.entry, "Type"));
-  moved.add("value", "[" + value + "]", context_.source(part.entry, unsteady ? "Temporal_values_file_path" : "Value"));
+  moved.add("value", along_axes(held, size, with_unit(0.0, context_.units.length)),
+            context_.source(part.entry, unsteady ? "Temporal_values_file_path" : "Value"));
   moved.add("directions", directions, source);
   if (unsteady) table(part, "", moved.section("waveform", part.entry.where()));
 }
@@ -183,10 +179,11 @@ void Conditions::traction_by_nodes(const ConditionPart& part, const Entry& file)
 
 /// Three components of which each has a course of its own.
 void Conditions::traction_in_time(const ConditionPart& part) {
-  const Entry* file = part.entry.find("Temporal_values_file_path");
+  const Entry* in_points = part.entry.find("Temporal_values_file_path");
+  const Entry* file = in_points != nullptr ? in_points : part.entry.find("Fourier_coefficients_file_path");
   if (file == nullptr)
-    return context_.missing(part.entry, "a traction whose components have Fourier series in a file",
-                            "give Temporal_values_file_path, with the three components in every line");
+    return context_.refuse(part.entry, "is Unsteady without a file",
+                           "give Temporal_values_file_path or Fourier_coefficients_file_path");
   file_of(*file);  // warns when it is not there
   const Entry* general = context_.file.root.find("GeneralSimulationParameters");
   const Entry& times = general != nullptr ? *general : context_.file.root;
@@ -195,7 +192,8 @@ void Conditions::traction_in_time(const ConditionPart& part) {
                      .quantity = NodalValues::Quantity::traction,
                      .file = context_.located(*file),
                      .where = file->where(),
-                     .ramp = context_.flag(part.entry, "Ramp_function"),
+                     .coefficients = in_points == nullptr,
+                     .ramp = in_points != nullptr && context_.flag(part.entry, "Ramp_function"),
                      .step = context_.number(times, "Time_step_size").value_or(0),
                      .steps = static_cast<std::size_t>(context_.number(times, "Number_of_time_steps").value_or(0))};
   if (!values.ramp)

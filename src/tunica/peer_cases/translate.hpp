@@ -66,7 +66,7 @@ struct NodalValues {
     parabolic,  ///< 1 - (r/R)^2, of the distances of a node and of the rim from the centre in the same direction
     pressure,   ///< the point array Pressure of a .vtp file
     traction,   ///< the point array Traction of a .vtp file
-    course      ///< a text: time and three components on each line, the same on the whole face
+    course      ///< the same on the whole face; a text: time and three components on each line, or coefficients
   };
   enum class Quantity { velocity, displacement, traction, factor };
   Kind kind;
@@ -83,8 +83,9 @@ struct NodalValues {
   std::vector<int> axes = {};
   double scale = 1.0;  ///< of all values
   // Of a course:
-  bool ramp = false;  ///< one straight line from the first value to the last
-  double step = 0.0;  ///< times of the table [s]
+  bool coefficients = false;  ///< of Fourier series, of each component
+  bool ramp = false;          ///< one straight line from the first value to the last
+  double step = 0.0;          ///< times of the table [s]
   std::size_t steps = 0;
 };
 

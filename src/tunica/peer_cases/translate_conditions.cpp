@@ -1,6 +1,8 @@
 // boundary: all faces.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tunica/base/text.hpp"
 #include "tunica/peer_cases/conditions.hpp"
 #include "tunica/peer_cases/svsolver_files.hpp"
@@ -52,6 +54,13 @@ std::string names_of(const std::vector<int>& axes) {
   std::string names;
   for (const int axis : axes) names += fmt::format("{}{}", names.empty() ? "" : ", ", "xyz"[axis]);
   return "[" + names + "]";
+}
+
+std::string along_axes(const std::vector<int>& axes, const std::string& size, const std::string& zero) {
+  std::string value;
+  for (int axis = 0; axis < 3; ++axis)
+    value += (axis == 0 ? "" : ", ") + (std::find(axes.begin(), axes.end(), axis) != axes.end() ? size : zero);
+  return "[" + value + "]";
 }
 
 // --- time courses -------------------------------------------------------------------------------------------------

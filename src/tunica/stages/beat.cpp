@@ -11,7 +11,7 @@
 #include "tunica/analysis/cycle.hpp"
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
-#include "tunica/geometry/triangle_tree.hpp"
+#include "tunica/geometry/thickness.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/stages/beat_fibres.hpp"
@@ -306,13 +306,14 @@ class Collector {
   std::vector<double> integrals_;  ///< [node][4], over time of |tau| and of tau [Pa s]
 };
 
-/// Distance through the wall to its other surface, whose normal points the other way.
+/// At the points of the wall's surfaces.
 void add_thickness(Skeleton& surface) {
+  constexpr double most = 20 * mm;
   if (surface.wall_end == 0) return;
   geometry::TriangleSurface wall;
   wall.points = surface.body.points;
   for (const auto& group : surface.body.groups)
-    if (group.kind == "outer" || group.kind == "inner")
+    if (group.kind == "outer" || group.kind == "inner" || group.kind == "end")
       for (std::size_t t = group.first; t < group.first + group.count; ++t) {
         const auto& nodes = surface.body.triangles[t];
         wall.triangles.push_back({nodes[0], nodes[1], nodes[2]});
@@ -320,13 +321,9 @@ void add_thickness(Skeleton& surface) {
   const auto normals = geometry::point_normals(wall);
   const geometry::TriangleTree tree(std::move(wall));
   Quantity q{"wall thickness", "mm", "wall", 1, 0, surface.wall_end, {{}}};
-  for (std::size_t i = 0; i < surface.wall_end; ++i) {
-    const auto& x = surface.body.points[i];
-    const auto other = tree.nearest_if(x, 0.05, [&](const geometry::SurfacePoint& p) {
-      return dot(tree.normal(p.triangle), normals[i]) < -0.3 && dot(p.place - x, normals[i]) <= 0;
-    });
-    q.frames[0].push_back(other ? static_cast<float>(other.distance / mm) : 0.0F);
-  }
+  for (std::size_t i = 0; i < surface.wall_end; ++i)
+    q.frames[0].push_back(
+        static_cast<float>(geometry::thickness_at(tree, surface.body.points[i], normals[i], most) / mm));
   surface.body.quantities.push_back(std::move(q));
 }
 

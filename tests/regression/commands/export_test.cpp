@@ -106,6 +106,32 @@ TEST_F(Export, TakesViscosityAndFacesThatMoveAsAWholeThereAndBack) {
   EXPECT_NE(back.find("value: 50 dyn s/cm^2"), std::string::npos) << back;
 }
 
+// What the other program reads as a Fourier series goes there as its coefficients, a ramp by its ends: digit by digit.
+TEST_F(Export, CoursesComeBackAsTheyWere) {
+  write("in.flow", "5 3\n0 -1\n0.2 -8\n0.4 -3.3\n0.7 -1.1\n0.9 -1.7\n");
+  write("out.flow", "2 1\n0.001 100\n0.003 250\n");
+  write("case.yaml",
+        "analysis: flow\nelements: linear\n"
+        "meshes: {tube: {radius: 5 mm, length: 2 cm, cells_around: 8, cells_radial: 1, cells_along: 4}}\n"
+        "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}, stabilisation: vms_classic}\n"
+        "boundary:\n"
+        "  lumen_inlet: {flow: {table: {file: in.flow, time_unit: s, unit: cm^3/s}}}\n"
+        "  lumen_outlet: {pressure: {table: {file: out.flow, time_unit: s, unit: dyn/cm^2, interpolation: ramp}}}\n"
+        "  lumen_wall: no_slip\n"
+        "time: {step: 1 ms, steps: 4, rho_infinity: 0.5, loads: end}\n"
+        "newton: {relative_tolerance: 1e-9}\n"
+        "output: {instant: end, units: {flow: cm^3/s, pressure: dyn/cm^2}}\n");
+  ASSERT_EQ(tunica("export case.yaml -o out --units cgs"), 0) << printed();
+  EXPECT_EQ(printed().find("follow the course"), std::string::npos) << printed();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/lumen_inlet.fcs"));
+  ASSERT_EQ(tunica("import out -o back.yaml --units cgs"), 0) << printed();
+  ASSERT_EQ(tunica("run back.yaml --output back"), 0) << printed();
+  ASSERT_EQ(tunica("run case.yaml --output first"), 0) << printed();
+  const auto first = last_line("first/faces.csv"), back = last_line("back/faces.csv");
+  for (const char* name : {"lumen_inlet flow [cm^3/s]", "lumen_inlet pressure [dyn/cm^2]"})
+    EXPECT_NEAR(back.at(name), first.at(name), 1e-7 * std::abs(first.at(name))) << name;
+}
+
 TEST_F(Export, WritesResultsAsThePeerDoes) {
   write("case.yaml", coupled);
   EXPECT_EQ(tunica("export case.yaml -o peer --units cgs --results"), 2);  // there are none

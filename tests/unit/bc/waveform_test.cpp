@@ -306,8 +306,28 @@ TEST(WaveformFile, FourierCoefficients) {
   EXPECT_NEAR(*waveform.period(), 2, 1e-15);
   EXPECT_NEAR(waveform.mean(), 10 * (3 + 0.5 - 1), 1e-12);
   EXPECT_EQ(read_table(source.file).times.size(), 16u);
+  // As svFSI's own files have them, number under number.
+  const Temporary column("column.fcs", "  1.0\n  2.0D0\n 3.0\n 0.5\n 2\n -1.0 0\n 0.25 -0.75\n");
+  EXPECT_EQ(make_waveform({.source = TableSource{{.path = column.path, .value_unit = 10}, {}}}).value(1 + h),
+            waveform.value(1 + h));
   const Temporary wrong("wrong.fcs", "0 1\n0 0\n3\n1 0\n");
   EXPECT_THROW(make_waveform({.source = TableSource{{.path = wrong.path}, {}}}), InputError);
+}
+
+TEST(WaveformFile, FourierCoefficientsOfThreeComponents) {
+  const Temporary pairs("pairs.fcs", "0 2\n1 0.1\n2 0.2\n3 0.3\n1\n4 5 6 7 8 9\n");
+  const Temporary columns("columns.fcs", "0\n2\n1 2 3\n0.1 0.2 0.3\n1\n4 5 6 7 8 9\n");
+  for (const auto* file : {&pairs, &columns}) {
+    const auto series = read_fourier_series({.path = file->path}, 3);
+    ASSERT_EQ(series.size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(series[static_cast<std::size_t>(i)].value, 1 + i);
+      EXPECT_DOUBLE_EQ(series[static_cast<std::size_t>(i)].slope, 0.1 * (1 + i));
+      EXPECT_EQ(series[static_cast<std::size_t>(i)].cosine, std::vector<double>{4.0 + i});
+      EXPECT_EQ(series[static_cast<std::size_t>(i)].sine, std::vector<double>{-7.0 - i});
+    }
+  }
+  EXPECT_THROW(read_fourier_series({.path = pairs.path}, 1), InputError);
 }
 
 TEST(WaveformFile, RealSimVascularInflow) {

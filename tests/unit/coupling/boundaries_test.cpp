@@ -113,6 +113,38 @@ TEST(Boundaries, NoSlipWinsOnSharedNodes) {
   EXPECT_GT(parallel::global_sum(MPI_COMM_WORLD, std::int64_t{inner}), 0);
 }
 
+// Along the other axes the nodes keep what they have, and blood that turns back is resisted as at an outlet.
+TEST(Boundaries, VelocityAlongSomeAxesLeavesTheOthersFree) {
+  bc::VelocityProfile profile;
+  profile.velocity = {"0", "0", "10*t"};
+  profile.directions = {false, false, true};
+  const bc::Velocity sideways{.value = {{0.1, 0.2, 0}}, .course = bc::WaveformInput{2.0}, .directions = {true, true}};
+  const Bound b(test::fluid_tube(), flow_input(profile, sideways, test::pressure(0.0)));
+  std::vector<double> v(at(b.mesh.nodes()), 7.0);
+  b.boundaries.prescribe(0.5, v);
+  const auto constraints = b.constraints();
+  const auto expect = [&](const char* face, const Vec3<double>& value, const Vec3<double>& free) {
+    for (const auto& triangle : b.mesh.face(face).triangles)
+      for (const auto node : triangle) {
+        const auto c = constraints.find(node);
+        ASSERT_NE(c, constraints.end());
+        for (int i = 0; i < 3; ++i) {
+          EXPECT_EQ(v[at(node) + i], value[i]);
+          for (int j = 0; j < 3; ++j) EXPECT_EQ(c->second.P(i, j), i == j ? free[i] : 0.0);
+        }
+      }
+  };
+  expect("lumen_inlet", {{7, 7, 5}}, {{1, 1, 0}});
+  expect("lumen_outlet", {{0.2, 0.4, 7}}, {{0, 0, 1}});
+}
+
+TEST(Boundaries, VelocityAlongAnAxisMeetsNoTiltedPlaneOfSymmetry) {
+  bc::VelocityProfile profile;
+  profile.velocity = {"1", "0", "0"};
+  profile.directions = {true, false, false};
+  EXPECT_THROW(Bound(test::turned_box(true), test::half_channel(profile)), InputError);
+}
+
 TEST(Boundaries, FixedWallsHoldAxesAndNormals) {
   BoundaryInput in;
   in.conditions = {{"symmetry_x", test::fixed_along_normal()},
@@ -403,6 +435,11 @@ TEST(Boundaries, CurvedFacesAreNoPlaneOfSymmetry) {
 
 TEST(Boundaries, TangentOfBackflowIsItsDerivative) {
   expect_consistent(test::fluid_tube(), flow_input(test::pressure(1e3), bc::Resistance{.resistance = 1e8}));
+}
+
+TEST(Boundaries, TangentOfAVelocityAlongSomeAxesIsItsDerivative) {
+  const bc::Velocity still{.value = {}, .course = bc::WaveformInput{1.0}, .directions = {true, true, false}};
+  expect_consistent(test::fluid_tube(), flow_input(test::pressure(1e3), still));
 }
 
 TEST(Boundaries, PressureLevelIsHeldAtOneNode) {

@@ -429,6 +429,44 @@ TEST(Translate, TakesTractionsNodeByNodeAndInTime) {
   EXPECT_EQ(course.nodal.at(0).kind, NodalValues::Kind::course);
   EXPECT_EQ(course.nodal[0].steps, 2u);
   EXPECT_EQ(course.nodal[0].step, 0.1);
+  EXPECT_FALSE(course.nodal[0].coefficients);
+  const auto series = translated(wall(elastic,
+                                      "<Type>Trac</Type><Time_dependence>Unsteady</Time_dependence>"
+                                      "<Fourier_coefficients_file_path>t.fcs</Fourier_coefficients_file_path>"));
+  EXPECT_EQ(series.nodal.at(0).kind, NodalValues::Kind::course);
+  EXPECT_TRUE(series.nodal[0].coefficients);
+  EXPECT_EQ(series.nodal[0].file.filename(), "t.fcs");
+  EXPECT_TRUE(has(refused(wall(elastic, "<Type>Trac</Type><Time_dependence>Unsteady</Time_dependence>")),
+                  "Unsteady without a file"));
+}
+
+TEST(Translate, GivesVelocitiesOfBloodAlongSomeAxes) {
+  FlowParts parts;
+  parts.inlet =
+      "<Type>Dir</Type><Value>-3</Value><Zero_out_perimeter>false</Zero_out_perimeter>"
+      "<Effective_direction>(0, 0, 1)</Effective_direction>";
+  EXPECT_TRUE(has(plain(translated(flow(parts))),
+                  "  in:\n    velocity:\n      value: [0 cm/s, 0 cm/s, -3 cm/s]\n      directions: [z]\n"));
+  parts.inlet = "<Type>Dir</Type><Value>0</Value><Effective_direction>(1, 1, 0)</Effective_direction>";
+  EXPECT_TRUE(has(plain(translated(flow(parts))),
+                  "  in:\n    velocity:\n      value: [0 cm/s, 0 cm/s, 0 cm/s]\n      directions: [x, y]\n"));
+  // The perimeter is zero where nothing else is said.
+  parts.inlet =
+      "<Type>Dir</Type><Time_dependence>Unsteady</Time_dependence><Profile>Parabolic</Profile>"
+      "<Temporal_values_file_path>in.flow</Temporal_values_file_path>"
+      "<Effective_direction>(0, 0, 1)</Effective_direction>";
+  const auto shaped = translated(flow(parts));
+  EXPECT_TRUE(has(plain(shaped), "profile:\n      table: in_velocities.csv\n")) << plain(shaped);
+  EXPECT_TRUE(has(plain(shaped), "      directions: [z]\n      waveform:\n"));
+  EXPECT_EQ(shaped.nodal.at(0).kind, NodalValues::Kind::parabolic);
+  EXPECT_EQ(shaped.nodal[0].axes, std::vector<int>{2});
+  EXPECT_TRUE(shaped.nodal[0].zero_rim);
+  parts.inlet =
+      "<Type>Dir</Type><Time_dependence>General</Time_dependence><Effective_direction>(0, 0, 1)</Effective_direction>"
+      "<Temporal_and_spatial_values_file_path>v.dat</Temporal_and_spatial_values_file_path>";
+  const auto general = translated(flow(parts));
+  EXPECT_TRUE(has(plain(general), "directions: [z]\n"));
+  EXPECT_EQ(general.nodal.at(0).axes, std::vector<int>{2});
 }
 
 TEST(Translate, TakesLoadsWithAProfile) {

@@ -68,13 +68,13 @@ TEST(Report, OpensOnWhatWasFoundBesideTargets) {
   EXPECT_LT(place(page, "id=\"answer\""), place(page, "id=\"mesh\""));
   EXPECT_LT(place(page, "id=\"mesh\""), place(page, "id=\"run\""));
   place(page,
-        "<td>131</td><td>mmHg</td><td><span class=\"aside\">target 125.0 ± 2 %</span></td><td><span "
+        "<td>131</td><td>mmHg</td><td><span class=\"aside\">target 125.0, 2 % of it allowed</span></td><td><span "
         "class=\"bad\">outside</span></td>");
   place(page,
-        "<td>75.5</td><td>mmHg</td><td><span class=\"aside\">target 75.0 ± 2 %</span></td><td><span "
+        "<td>75.5</td><td>mmHg</td><td><span class=\"aside\">target 75.0, 2 % of it allowed</span></td><td><span "
         "class=\"good\">within</span></td>");
   place(page,
-        "<td>49.5</td><td>%</td><td><span class=\"aside\">target 50 ± 2 %</span></td><td><span "
+        "<td>49.5</td><td>%</td><td><span class=\"aside\">target 50, 2 % of it allowed</span></td><td><span "
         "class=\"good\">within</span></td>");
   place(page,
         "<td>0.25</td><td>Pa</td><td><span class=\"aside\">endothelium is quiescent above 1.5 and atherogenic below "

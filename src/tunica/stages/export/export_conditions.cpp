@@ -170,8 +170,11 @@ class FaceExport {
     if (axes != bc::Axes{true, true, true}) add_key(entry, "Effective_direction", directions(axes));
   }
 
-  /// A constant as Value, else a table of points that are read as a Fourier series.
+  /// A constant as Value, a series as its coefficients, a ramp as its ends, all else a table of points that are read as
+  /// a Fourier series.
   void course(Entry& entry, const bc::WaveformInput& input, const bc::Waveform& waveform, double factor);
+  void sampled_course(Entry& entry, const bc::WaveformInput& input, const bc::Waveform& waveform, double factor);
+  void in_file(Entry& entry, const char* key, const char* extension, const std::string& text);
 
   Exported& e_;
   Entry& equation_;
@@ -179,8 +182,34 @@ class FaceExport {
   std::string where_;
 };
 
+void FaceExport::in_file(Entry& entry, const char* key, const char* extension, const std::string& text) {
+  add_key(entry, "Time_dependence", "Unsteady");
+  add_key(entry, key, face_ + extension);
+  e_.tables.emplace_back(face_ + extension, text);
+}
+
 void FaceExport::course(Entry& entry, const bc::WaveformInput& input, const bc::Waveform& waveform, double factor) {
   if (fixed(input)) return add_key(entry, "Value", number(factor * waveform.value(0.0)));
+  if (const auto series = waveform.series()) {
+    std::string text = fmt::format("{}\n{}\n{} {}\n{}\n", series->start, series->period, factor * series->value,
+                                   factor * series->slope, series->cosine.size());
+    for (std::size_t k = 0; k < series->cosine.size(); ++k)
+      text += fmt::format("{} {}\n", factor * series->cosine[k], -factor * series->sine[k]);
+    return in_file(entry, "Fourier_coefficients_file_path", ".fcs", text);
+  }
+  const auto* source = std::get_if<bc::TableSource>(&input.source);
+  if (source != nullptr && source->options.interpolation == bc::Interpolation::ramp && input.ramp_time == 0) {
+    const auto times = bc::read_table(source->file).times;
+    std::string text = "2 1\n";
+    for (const double t : {times.front(), times.back()}) text += fmt::format("{} {}\n", t, factor * waveform.value(t));
+    in_file(entry, "Temporal_values_file_path", ".flow", text);
+    return add_key(entry, "Ramp_function", "true");
+  }
+  sampled_course(entry, input, waveform, factor);
+}
+
+void FaceExport::sampled_course(Entry& entry, const bc::WaveformInput& input, const bc::Waveform& waveform,
+                                double factor) {
   // What starts, steps or is ramped repeats nowhere, so that the series spans the run, and a step beyond: its end is
   // its start again.
   const double span =
@@ -205,9 +234,7 @@ void FaceExport::course(Entry& entry, const bc::WaveformInput& input, const bc::
   if (highest > lowest)
     e_.change(where_, fmt::format("{} points and {} Fourier modes follow the course within {:.1e} of its range",
                                   sampled_points, sampled_modes, off / (highest - lowest)));
-  add_key(entry, "Time_dependence", "Unsteady");
-  add_key(entry, "Temporal_values_file_path", face_ + ".flow");
-  e_.tables.emplace_back(face_ + ".flow", text);
+  in_file(entry, "Temporal_values_file_path", ".flow", text);
 }
 
 }  // namespace

@@ -221,8 +221,9 @@ void read_array(const peer_cases::NodalValues& wanted, const mesh::MeshData& mes
   }
 }
 
-/// Three columns behind the time, each of which makes a course.
-void read_course(const peer_cases::NodalValues& wanted, double unit, NodalTable& table) {
+/// Three columns behind the time, each of which makes a course. The times of a ramp are those of its ends.
+std::vector<bc::Waveform> courses_of_columns(const peer_cases::NodalValues& wanted, double unit,
+                                             std::vector<double>& ramp_times) {
   Words words(wanted.file);
   const auto points = words.count("a number of points"), modes = words.count("a number of modes");
   bc::Table columns[3];
@@ -234,13 +235,7 @@ void read_course(const peer_cases::NodalValues& wanted, double unit, NodalTable&
     }
   }
   if (!words.done()) words.refuse("has numbers behind those of its last point");
-  table.nodes.resize(1);
-  const auto& times = columns[0].times;
-  if (wanted.ramp) {
-    table.times = {times.front(), times.back()};
-  } else {
-    for (std::size_t n = 0; n <= wanted.steps; ++n) table.times.push_back(static_cast<double>(n) * wanted.step);
-  }
+  if (wanted.ramp) ramp_times = {columns[0].times.front(), columns[0].times.back()};
   std::vector<bc::Waveform> courses;
   for (const auto& column : columns)
     courses.push_back(
@@ -250,6 +245,22 @@ void read_course(const peer_cases::NodalValues& wanted, double unit, NodalTable&
                              .modes = wanted.ramp ? 0 : static_cast<int>(modes),
                              .trend = !wanted.ramp},
                             wanted.file.string()));
+  return courses;
+}
+
+std::vector<bc::Waveform> courses_of_coefficients(const peer_cases::NodalValues& wanted, double unit) {
+  std::vector<bc::Waveform> courses;
+  for (const auto& series : bc::read_fourier_series({.path = wanted.file, .value_unit = unit}, 3))
+    courses.push_back(bc::Waveform::fourier_series(series, wanted.file.string()));
+  return courses;
+}
+
+void read_course(const peer_cases::NodalValues& wanted, double unit, NodalTable& table) {
+  table.nodes.resize(1);
+  const auto courses =
+      wanted.coefficients ? courses_of_coefficients(wanted, unit) : courses_of_columns(wanted, unit, table.times);
+  if (!wanted.ramp)
+    for (std::size_t n = 0; n <= wanted.steps; ++n) table.times.push_back(static_cast<double>(n) * wanted.step);
   for (const double t : table.times)
     table.values.push_back({Vec3<double>{{courses[0].value(t), courses[1].value(t), courses[2].value(t)}}});
   if (table.times.size() < 2 || !(table.times[1] > table.times[0]))
