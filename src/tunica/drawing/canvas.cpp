@@ -97,6 +97,7 @@ std::vector<std::uint8_t> Canvas::png() const {
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   std::memcpy(image->GetScalarPointer(), pixels_.data(), pixels_.size());
   vtkNew<vtkPNGWriter> writer;
+  writer->SetCompressionLevel(9);
   writer->WriteToMemoryOn();
   writer->SetInputData(image);
   writer->Write();

@@ -253,6 +253,7 @@ void draw(const std::vector<Layer>& layers, const Look& look, std::optional<doub
 
 void write_png(vtkWindowToImageFilter& image, const std::string& file) {
   vtkNew<vtkPNGWriter> writer;
+  writer->SetCompressionLevel(9);
   writer->WriteToMemoryOn();
   writer->SetInputConnection(image.GetOutputPort());
   writer->Write();

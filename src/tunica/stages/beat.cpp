@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -32,7 +33,7 @@ using viewer::Skeleton;
 
 constexpr double mm = 1e-3, mmHg = 133.322387415, kPa = 1e3;
 /// Sections across the aorta that a page holds at most, besides those at tears.
-constexpr std::size_t most_sections = 24;
+constexpr std::size_t most_sections = 12;
 
 Vec3<double> place_of(const json& centre_mm) {
   return {{mm * centre_mm.at(0).get<double>(), mm * centre_mm.at(1).get<double>(), mm * centre_mm.at(2).get<double>()}};
@@ -154,7 +155,7 @@ class NodalMean {
   std::vector<double> volumes_;
 };
 
-/// A quantity of a body that grows frame by frame.
+/// A quantity of a body that grows frame by frame. One number of a vector is its size.
 struct Filled {
   Skeleton* skeleton;
   Quantity quantity;
@@ -168,16 +169,24 @@ struct Filled {
     for (std::size_t i = 0; i < quantity.count; ++i)
       for (std::size_t c = 0; c < n; ++c) frame.push_back(blend(nodal, (*sources)[offset + i], n, c, unit));
   }
+  void add_size(const std::vector<double>& vectors, double unit) {
+    auto& frame = quantity.frames.emplace_back();
+    frame.reserve(quantity.count);
+    for (std::size_t i = 0; i < quantity.count; ++i) {
+      const auto component = [&](std::size_t c) { return blend(vectors, (*sources)[offset + i], 3, c, unit); };
+      frame.push_back(std::hypot(component(0), component(1), component(2)));
+    }
+  }
 };
 
 Filled of_wall(Skeleton& s, const std::string& name, const std::string& unit) {
   return {&s, {name, unit, "wall", 1, 0, s.wall_end, {}}, &s.wall, 0};
 }
-Filled of_blood(Skeleton& s, const std::string& name, const std::string& unit, int components) {
-  return {&s, {name, unit, "blood", components, s.blood_first, s.blood_end - s.blood_first, {}}, &s.blood, 0};
+Filled of_blood(Skeleton& s, const std::string& name, const std::string& unit) {
+  return {&s, {name, unit, "blood", 1, s.blood_first, s.blood_end - s.blood_first, {}}, &s.blood, 0};
 }
-Filled of_inside(Skeleton& s, const std::string& name, const std::string& unit, int components) {
-  return {&s, {name, unit, "inside", components, s.blood_first, s.inside_end - s.blood_first, {}}, &s.blood, 0};
+Filled of_inside(Skeleton& s, const std::string& name, const std::string& unit) {
+  return {&s, {name, unit, "inside", 1, s.blood_first, s.inside_end - s.blood_first, {}}, &s.blood, 0};
 }
 
 /// All that is collected while the fields are read one after the other.
@@ -190,11 +199,10 @@ class Collector {
       if (run.wall) displacement_.push_back(motion_of(*s));
       if (run.wall && s->wall_end > 0)
         for (std::size_t q = 0; q < stresses_.size(); ++q) stress_.emplace_back(q, of_wall(*s, stresses_[q], "kPa"));
-      if (run.fluid && s->blood_end > s->blood_first) pressure_.push_back(of_blood(*s, "pressure", "mmHg", 1));
+      if (run.fluid && s->blood_end > s->blood_first) pressure_.push_back(of_blood(*s, "pressure", "mmHg"));
     }
-    if (run.fluid && surface.inside_end > surface.blood_first)
-      shear_ = of_inside(surface, "wall shear stress", "Pa", 3);
-    if (run.fluid && sections.blood_end > sections.blood_first) velocity_ = of_blood(sections, "velocity", "m/s", 3);
+    if (run.fluid && surface.inside_end > surface.blood_first) shear_ = of_inside(surface, "wall shear stress", "Pa");
+    if (run.fluid && sections.blood_end > sections.blood_first) velocity_ = of_blood(sections, "velocity", "m/s");
     integrals_.assign(4 * data.points.size(), 0.0);
   }
 
@@ -215,8 +223,8 @@ class Collector {
       filled.add(*nodal[q], kPa);
     }
     for (auto& p : pressure_) p.add(frame.pressure, mmHg);
-    if (shear_) shear_->add(frame.wall_shear, 1);
-    if (velocity_) velocity_->add(frame.velocity, 1);
+    if (shear_) shear_->add_size(frame.wall_shear, 1);
+    if (velocity_) velocity_->add_size(frame.velocity, 1);
   }
 
   /// Quantities into the bodies; what some region does not have is left out, with a remark.
@@ -344,15 +352,44 @@ Window window_of(const std::vector<double>& times, const json& post) {
   return {static_cast<std::size_t>(first - times.begin()), static_cast<std::size_t>(last - first)};
 }
 
+struct BeatMesh {
+  MeshData data;         ///< of linear elements, by which the fields are read
+  std::int64_t corners;  ///< nodes before it was subdivided, which come first
+  MeshData to_cut;       ///< where the wall is as it was meshed
+};
+
+/// The parts of the lumen's elements, by which velocity is seen, and the elements of the wall.
+MeshData parts_of_lumen(const MeshData& parts, const std::vector<std::array<std::int64_t, 4>>& meshed) {
+  MeshData data;
+  data.points = parts.points;
+  for (auto region : parts.regions) {
+    const bool whole = region.kind == RegionKind::wall;
+    const auto& from = whole ? meshed : parts.tetrahedra;
+    const auto shrunk = [&](std::int64_t element) { return whole ? element / 8 : element; };
+    const auto first = from.begin() + shrunk(region.first_element), end = from.begin() + shrunk(region.end_element);
+    region.first_element = std::ssize(data.tetrahedra);
+    data.tetrahedra.insert(data.tetrahedra.end(), first, end);
+    region.end_element = std::ssize(data.tetrahedra);
+    data.regions.push_back(region);
+  }
+  return data;
+}
+
 /// With the lines of the fibres, which are of the elements as they were meshed.
-MeshData mesh_of(const case_file::Case& c, viewer::Beat& beat) {
+BeatMesh mesh_of(const case_file::Case& c, viewer::Beat& beat) {
   const bool has_frame = c.wall && c.wall->fibre_frame;
   MeshData data = artifacts::load_meshes(c.meshes, has_frame ? wall::frame_arrays(*c.wall->fibre_frame) : Names{}).data;
   if (has_frame) beat.lines = fibre_lines(*c.wall, data);
   data.fields.clear();
-  if (c.elements != case_file::Elements::quadratic) return data;
+  const auto corners = std::ssize(data.points);
+  if (c.elements != case_file::Elements::quadratic) {
+    MeshData to_cut = data;
+    return {std::move(data), corners, std::move(to_cut)};
+  }
   mesh::add_edge_nodes(data);
-  return mesh::subdivided(data);
+  MeshData parts = mesh::subdivided(data);
+  MeshData to_cut = parts_of_lumen(parts, data.tetrahedra);
+  return {std::move(parts), corners, std::move(to_cut)};
 }
 
 viewer::FaceRoles roles_of(const case_file::Case& c) {
@@ -392,13 +429,16 @@ viewer::Beat collect_beat(const BeatSource& source, const files::Say& say) {
   say("view: mesh and fields");
   const auto c = case_file::read_case(source.case_file).value;
   viewer::Beat beat;
-  const MeshData data = mesh_of(c, beat);
+  const BeatMesh beat_mesh = mesh_of(c, beat);
+  const MeshData& data = beat_mesh.data;
   beat.title = c.title;
   const auto run = case_file::describe(c);
   analysis::FieldSeries series(run, data, source.results);
   Skeleton surface = viewer::surface_of(data, roles_of(c));
+  if (beat_mesh.corners < std::ssize(data.points))
+    surface.body.joined = viewer::joined_triangles(surface, beat_mesh.corners);
   const auto planes = planes_of(source.post, beat);
-  Skeleton sections = viewer::sections_of(data, planes);
+  Skeleton sections = viewer::sections_of(beat_mesh.to_cut, planes);
   add_labels(data, surface, source.post, beat);
   Collector collector(data, run, series.stresses(), surface, sections);
   read_frames(series, source.post, collector, beat);

@@ -31,7 +31,9 @@ struct Body {
   std::vector<Vec3<double>> points;                     ///< reference [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< seen from outside counter-clockwise
   std::vector<Group> groups;                            ///< cover all triangles, in order
-  std::vector<Quantity> quantities;                     ///< of one name "displacement" [mm] for all points: motion
+  /// Where four triangles stand in place of each of the mesh: those of the mesh, in the order of the groups.
+  std::vector<std::array<std::uint32_t, 3>> joined{};
+  std::vector<Quantity> quantities;  ///< of one name "displacement" [mm] for all points: motion
 };
 
 /// Short lines on the surface, such as directions of fibres. They move with the point that is nearest to them.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double most_of_int16 = 32767;
 /// Steps of a mode are this part of the tolerance, so that rounding many of them stays below it.
-constexpr double steps_in_tolerance = 4;
+constexpr double steps_in_tolerance = 3;
 
 using Frames = std::vector<std::vector<float>>;
 
@@ -110,7 +110,8 @@ Modes find_modes(const Frames& frames, double tolerance) {
   Modes result;
   const auto mean = mean_of(frames);
   const double range = range_of(frames);
-  result.mean_step = std::max(largest_of(mean), 1e-30) / most_of_int16;
+  const double finest = tolerance * range / steps_in_tolerance;
+  result.mean_step = std::max({finest, largest_of(mean) / most_of_int16, 1e-30});
   result.mean = rounded(mean, result.mean_step);
   Frames rest = frames;
   for (auto& frame : rest)
@@ -120,7 +121,6 @@ Modes find_modes(const Frames& frames, double tolerance) {
   if (result.deviation.most <= tolerance || frames.size() < 2) return result;
   const Frames deviations = rest;
   const auto in_time = courses(deviations);
-  const double finest = tolerance * range / steps_in_tolerance;
   for (Eigen::Index k = 0; k < in_time.cols(); ++k) {
     result.modes.push_back(mode_of(deviations, in_time.col(k), finest));
     // The 99.9 % of the differences are looked at once their mean is small: it takes as long as ten modes.

@@ -13,7 +13,7 @@ namespace tunica::viewer {
 struct PackOptions {
   double tolerance = 0.005;             ///< of modes, as a share of the range of each quantity
   double distance = 1e-4;               ///< that simplified surfaces may keep from those of the mesh [m]
-  std::size_t most_triangles = 120000;  ///< above which surfaces are simplified
+  std::size_t most_triangles = 120000;  ///< above which surfaces are simplified; those of quadratic elements anyway
 };
 
 /// What came of a quantity.

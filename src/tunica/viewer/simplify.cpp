@@ -121,6 +121,21 @@ void measure(const Body& before, const Body& after, Simplification& result) {
   }
 }
 
+/// About `most_triangles` are left, group by group.
+void thin_out(Body& body, std::size_t most_triangles, double distance) {
+  const auto places = places_of(body);
+  const double share = static_cast<double>(most_triangles) / static_cast<double>(body.triangles.size());
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  for (auto& group : body.groups) {
+    const std::size_t count = group.count == 0 ? 0 : simplified(body, group, places, share, distance);
+    const auto first = body.triangles.begin() + static_cast<std::ptrdiff_t>(group.first);
+    group.first = kept.size();
+    group.count = count;
+    kept.insert(kept.end(), first, first + static_cast<std::ptrdiff_t>(count));
+  }
+  body.triangles = std::move(kept);
+}
+
 }  // namespace
 
 void order(Body& body) {
@@ -148,19 +163,15 @@ void order(Body& body) {
 
 Simplification simplify(Body& body, std::size_t most_triangles, double distance) {
   Simplification result{body.triangles.size(), body.triangles.size(), 0, {}};
-  if (body.triangles.size() <= most_triangles || distance <= 0) return result;
+  const std::size_t least = body.joined.empty() ? body.triangles.size() : body.joined.size();
+  if (body.joined.empty() && (least <= most_triangles || distance <= 0)) return result;
   const Body before = body;
-  const auto places = places_of(body);
-  const double share = static_cast<double>(most_triangles) / static_cast<double>(body.triangles.size());
-  std::vector<std::array<std::uint32_t, 3>> kept;
-  for (auto& group : body.groups) {
-    const std::size_t count = group.count == 0 ? 0 : simplified(body, group, places, share, distance);
-    const auto first = body.triangles.begin() + static_cast<std::ptrdiff_t>(group.first);
-    group.first = kept.size();
-    group.count = count;
-    kept.insert(kept.end(), first, first + static_cast<std::ptrdiff_t>(count));
+  if (!body.joined.empty()) {
+    body.triangles = std::move(body.joined);
+    body.joined.clear();
+    for (auto& group : body.groups) group.first /= 4, group.count /= 4;
   }
-  body.triangles = std::move(kept);
+  if (least > most_triangles && distance > 0) thin_out(body, most_triangles, distance);
   result.triangles = body.triangles.size();
   measure(before, body, result);
   return result;

@@ -16,9 +16,10 @@ struct Simplification {
   std::vector<Deviation> deviations;  ///< of each quantity, at the points that are gone, over all times
 };
 
-/// Takes away points, group by group and without moving their borders, until `most_triangles` are left or the surface
-/// would leave the one that was by more than `distance` [m]. What is left are points of the mesh with their values.
-/// Nothing is taken from a body that is small enough.
+/// Puts the triangles of the mesh in the place of their parts, where there are parts; takes away points, group by group
+/// and without moving their borders, until `most_triangles` are left or the surface would leave the one that was by
+/// more than `distance` [m]. What is left are points of the mesh with their values. Nothing more is taken from a body
+/// that is small enough.
 Simplification simplify(Body& body, std::size_t most_triangles, double distance);
 
 }  // namespace tunica::viewer

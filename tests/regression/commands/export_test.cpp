@@ -170,6 +170,16 @@ TEST_F(Export, WritesResultsAsThePeerDoes) {
   EXPECT_NE(volume, 1.0);
 }
 
+TEST_F(Export, ResultsOfAnotherCaseAreNotThoseOfThisOne) {
+  write("case.yaml", coupled);
+  ASSERT_EQ(tunica("run case.yaml --until 1"), 0) << printed();
+  std::string changed = coupled;
+  changed.replace(changed.find("step: 1 ms"), 10, "step: 2 ms");
+  write("case.yaml", changed);
+  EXPECT_EQ(tunica("export case.yaml -o peer --units cgs --results"), 2);
+  EXPECT_NE(printed().find("holds results of another case"), std::string::npos) << printed();
+}
+
 TEST_F(Export, WritesResultsOfQuadraticElementsAtAllTheirNodes) {
   std::string quadratic = coupled;
   quadratic.replace(quadratic.find("elements: linear"), 16, "elements: quadratic");

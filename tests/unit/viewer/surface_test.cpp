@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/viewer/simplify.hpp"
 
@@ -128,6 +129,39 @@ TEST(Simplify, KeepsTheDistanceAndMeasuresIt) {
     EXPECT_GT(result.distance, 0.0);
     EXPECT_LT(result.distance, 1.5 * distance);  // the tool's measure is that of planes
     EXPECT_LT(result.deviations[0].most, 0.01);  // a linear function
+  }
+}
+
+// Surfaces of quadratic elements: the triangles of the mesh come back, and what is between their corners is measured.
+TEST(Simplify, PutsTrianglesInPlaceOfTheirParts) {
+  auto data = tube_of(0.0);
+  const auto corners = std::ssize(data.points);
+  const auto as_meshed = surface_of(data, {});
+  mesh::add_edge_nodes(data);
+  auto surface = surface_of(mesh::subdivided(data), {});
+  surface.body.joined = joined_triangles(surface, corners);
+  ASSERT_EQ(surface.body.joined.size(), as_meshed.body.triangles.size());
+  auto& body = surface.body;
+  Quantity q{"square of z", "", "blood", 1, surface.blood_first, surface.blood_end - surface.blood_first, {{}}};
+  for (std::size_t i = q.first; i < q.first + q.count; ++i)
+    q.frames[0].push_back(static_cast<float>(1e4 * body.points[i][2] * body.points[i][2]));
+  body.quantities = {q};
+  const auto result = simplify(body, 1000000, 1e-4);
+  EXPECT_EQ(4 * result.triangles, result.triangles_before);
+  EXPECT_LT(result.distance, 1e-9);
+  // (h/2)^2 of a range of L^2, h = L/8.
+  EXPECT_NEAR(result.deviations.at(0).largest, 1.0 / 256, 1e-4);
+  double area = 0, before = 0;
+  const auto add = [](const Body& b, double& sum) {
+    for (const auto& t : b.triangles)
+      sum += 0.5 * norm(cross(b.points[t[1]] - b.points[t[0]], b.points[t[2]] - b.points[t[0]]));
+  };
+  add(body, area);
+  add(as_meshed.body, before);
+  EXPECT_NEAR(area, before, 1e-12);
+  for (std::size_t g = 0; g < body.groups.size(); ++g) {
+    EXPECT_EQ(body.groups[g].name, as_meshed.body.groups[g].name);
+    EXPECT_EQ(body.groups[g].count, as_meshed.body.groups[g].count);
   }
 }
 

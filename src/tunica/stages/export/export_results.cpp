@@ -14,9 +14,12 @@
 
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/artifacts/histories.hpp"
+#include "tunica/artifacts/inputs.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/artifacts/manifest.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/case/case.hpp"
+#include "tunica/config/description.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -222,11 +225,23 @@ std::vector<std::string> write_histories(const case_file::Case& c, const mesh::M
   return files;
 }
 
+/// What was computed from another case would come out under the name of this one.
+void check_fresh(const fs::path& case_file, const case_file::Case& c) {
+  const auto results = artifacts::find_results(c.output.directory);
+  if (!results || !results->damage.empty()) return;  // what is missing is told where it is read
+  auto inputs = artifacts::run_inputs(config::read_text(case_file), case_file);
+  if (c.outlets) artifacts::Fingerprints().add(inputs, "outlets.file", c.outlets->file());
+  if (results->case_hash != inputs.fingerprint())
+    throw InputError(c.output.directory.string(), "holds results of another case, or of this one before it was changed",
+                     "run the case, or name the folder of its results by `output.directory`");
+}
+
 }  // namespace
 
 std::vector<std::string> export_results(const ResultsRequest& request) {
   const Units units(peer_cases::unit_system(request.units));
   const auto c = case_file::read_case(request.case_file).value;
+  check_fresh(request.case_file, c);
   const auto mesh = artifacts::load_mesh(c);
   fs::create_directories(request.folder);
   auto files = write_fields(c, mesh.data, units, request.folder);
