@@ -316,7 +316,7 @@ class Collector {
 
 /// At the points of the wall's surfaces.
 void add_thickness(Skeleton& surface) {
-  constexpr double most = 20 * mm;
+  constexpr double most = 10 * mm;
   if (surface.wall_end == 0) return;
   geometry::TriangleSurface wall;
   wall.points = surface.body.points;
