@@ -314,24 +314,39 @@ class Collector {
   std::vector<double> integrals_;  ///< [node][4], over time of |tau| and of tau [Pa s]
 };
 
-/// At the points of the wall's surfaces.
+/// The wall's surfaces, of triangles of the mesh.
+geometry::TriangleSurface surfaces_of_wall(const viewer::Body& body) {
+  geometry::TriangleSurface wall;
+  wall.points = body.points;
+  const std::size_t parts = body.joined.empty() ? 1 : 4;
+  for (const auto& group : body.groups)
+    if (group.kind == "outer" || group.kind == "inner" || group.kind == "end")
+      for (std::size_t t = group.first / parts; t < (group.first + group.count) / parts; ++t) {
+        const auto& nodes = parts == 1 ? body.triangles[t] : body.joined[t].corners;
+        wall.triangles.push_back({nodes[0], nodes[1], nodes[2]});
+      }
+  return wall;
+}
+
+/// At the points of the wall's surfaces; on edges of quadratic elements the mean of their ends.
 void add_thickness(Skeleton& surface) {
   constexpr double most = 10 * mm;
   if (surface.wall_end == 0) return;
-  geometry::TriangleSurface wall;
-  wall.points = surface.body.points;
-  for (const auto& group : surface.body.groups)
-    if (group.kind == "outer" || group.kind == "inner" || group.kind == "end")
-      for (std::size_t t = group.first; t < group.first + group.count; ++t) {
-        const auto& nodes = surface.body.triangles[t];
-        wall.triangles.push_back({nodes[0], nodes[1], nodes[2]});
-      }
-  const auto normals = geometry::point_normals(wall);
-  const geometry::TriangleTree tree(std::move(wall));
-  Quantity q{"wall thickness", "mm", "wall", 1, 0, surface.wall_end, {{}}};
+  const auto& body = surface.body;
+  const geometry::TriangleTree tree(surfaces_of_wall(body));
+  const auto normals = geometry::point_normals(tree.surface());
+  std::vector<char> between(body.points.size(), 0);
+  for (const auto& joined : body.joined)
+    for (const auto point : joined.between) between[point] = 1;
+  Quantity q{"wall thickness", "mm", "wall", 1, 0, surface.wall_end, {std::vector<float>(surface.wall_end, 0.0F)}};
+  auto& values = q.frames[0];
   for (std::size_t i = 0; i < surface.wall_end; ++i)
-    q.frames[0].push_back(
-        static_cast<float>(geometry::thickness_at(tree, surface.body.points[i], normals[i], most) / mm));
+    if (!between[i])
+      values[i] = static_cast<float>(geometry::thickness_at(tree, body.points[i], normals[i], most) / mm);
+  for (const auto& joined : body.joined)
+    for (std::size_t e = 0; e < 3; ++e)
+      if (const auto point = joined.between[e]; point < surface.wall_end)
+        values[point] = 0.5F * (values[joined.corners[e]] + values[joined.corners[(e + 1) % 3]]);
   surface.body.quantities.push_back(std::move(q));
 }
 

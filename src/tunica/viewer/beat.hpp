@@ -26,13 +26,19 @@ struct Group {
   std::size_t first = 0, count = 0;  ///< triangles of the body
 };
 
+/// A triangle of the mesh in whose place four parts stand.
+struct Joined {
+  std::array<std::uint32_t, 3> corners;
+  std::array<std::uint32_t, 3> between;  ///< points on the edges, each after its corner
+};
+
 struct Body {
   std::string name;                                     ///< "surface" or "sections"
   std::vector<Vec3<double>> points;                     ///< reference [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< seen from outside counter-clockwise
   std::vector<Group> groups;                            ///< cover all triangles, in order
   /// Where four triangles stand in place of each of the mesh: those of the mesh, in the order of the groups.
-  std::vector<std::array<std::uint32_t, 3>> joined{};
+  std::vector<Joined> joined{};
   std::vector<Quantity> quantities;  ///< of one name "displacement" [mm] for all points: motion
 };
 

@@ -86,6 +86,16 @@ std::size_t simplified(Body& body, const Group& group, const std::vector<float>&
   return count / 3;
 }
 
+void set_deviations(const Body& before, std::vector<std::vector<float>> differences, Simplification& result) {
+  for (std::size_t k = 0; k < before.quantities.size(); ++k) {
+    float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+    for (const auto& frame : before.quantities[k].frames)
+      for (const float v : frame) low = std::min(low, v), high = std::max(high, v);
+    result.deviations.push_back(
+        deviation_of(std::move(differences[k]), static_cast<double>(high) - static_cast<double>(low)));
+  }
+}
+
 /// Where the points that are gone come to lie, and what is read there in place of their values.
 void measure(const Body& before, const Body& after, Simplification& result) {
   std::vector<bool> left(before.points.size(), false);
@@ -112,13 +122,28 @@ void measure(const Body& before, const Body& after, Simplification& result) {
         }
     }
   }
+  set_deviations(before, std::move(differences), result);
+}
+
+/// Halfway between the corners of the triangles that have taken the place of their parts.
+void measure_between(const Body& before, Simplification& result) {
+  std::vector<std::vector<float>> differences(before.quantities.size());
   for (std::size_t k = 0; k < before.quantities.size(); ++k) {
-    float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
-    for (const auto& frame : before.quantities[k].frames)
-      for (const float v : frame) low = std::min(low, v), high = std::max(high, v);
-    result.deviations.push_back(
-        deviation_of(std::move(differences[k]), static_cast<double>(high) - static_cast<double>(low)));
+    const auto& q = before.quantities[k];
+    const auto n = static_cast<std::size_t>(q.components);
+    const auto covers = [&](std::size_t point) { return point >= q.first && point < q.first + q.count; };
+    for (const auto& joined : before.joined)
+      for (std::size_t e = 0; e < 3; ++e) {
+        const std::size_t a = joined.corners[e], b = joined.corners[(e + 1) % 3], m = joined.between[e];
+        if (!covers(a) || !covers(b) || !covers(m)) continue;
+        for (const auto& frame : q.frames)
+          for (std::size_t c = 0; c < n; ++c) {
+            const auto value = [&](std::size_t point) { return frame[n * (point - q.first) + c]; };
+            differences[k].push_back(0.5F * (value(a) + value(b)) - value(m));
+          }
+      }
   }
+  set_deviations(before, std::move(differences), result);
 }
 
 /// About `most_triangles` are left, group by group.
@@ -167,13 +192,18 @@ Simplification simplify(Body& body, std::size_t most_triangles, double distance)
   if (body.joined.empty() && (least <= most_triangles || distance <= 0)) return result;
   const Body before = body;
   if (!body.joined.empty()) {
-    body.triangles = std::move(body.joined);
+    body.triangles.clear();
+    for (const auto& joined : body.joined) body.triangles.push_back(joined.corners);
     body.joined.clear();
     for (auto& group : body.groups) group.first /= 4, group.count /= 4;
   }
-  if (least > most_triangles && distance > 0) thin_out(body, most_triangles, distance);
+  const bool thin = least > most_triangles && distance > 0;
+  if (thin) thin_out(body, most_triangles, distance);
   result.triangles = body.triangles.size();
-  measure(before, body, result);
+  if (thin)
+    measure(before, body, result);
+  else
+    measure_between(before, result);
   return result;
 }
 

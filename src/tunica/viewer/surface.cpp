@@ -213,13 +213,13 @@ Skeleton surface_of(const MeshData& data, const FaceRoles& roles) {
   return s;
 }
 
-std::vector<std::array<std::uint32_t, 3>> joined_triangles(const Skeleton& surface, std::int64_t corners) {
+std::vector<Joined> joined_triangles(const Skeleton& surface, std::int64_t corners) {
   const auto is_corner = [&](std::uint32_t point) {
     const auto& source = point < surface.wall_end ? surface.wall[point] : surface.blood[point - surface.blood_first];
     return source.a < corners;
   };
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  std::vector<std::array<std::uint32_t, 3>> joined;
+  std::vector<Joined> joined;
   for (const auto& group : surface.body.groups) {
     // Of the four parts three have a corner each, opposite to an edge of the one in the middle.
     std::map<Edge, std::uint32_t> corner_at;
@@ -231,7 +231,8 @@ std::vector<std::array<std::uint32_t, 3>> joined_triangles(const Skeleton& surfa
       const auto& p = surface.body.triangles[t];
       if (is_corner(p[0]) || is_corner(p[1]) || is_corner(p[2])) continue;
       // Its edges run the other way in the parts beside it.
-      joined.push_back({corner_at.at({p[1], p[0]}), corner_at.at({p[2], p[1]}), corner_at.at({p[0], p[2]})});
+      joined.push_back(
+          {{corner_at.at({p[1], p[0]}), corner_at.at({p[2], p[1]}), corner_at.at({p[0], p[2]})}, {p[1], p[2], p[0]}});
     }
   }
   return joined;

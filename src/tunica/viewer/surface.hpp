@@ -42,7 +42,7 @@ Skeleton surface_of(const mesh::MeshData& data, const FaceRoles& roles);
 
 /// Of a boundary whose mesh was subdivided: the triangles that there were, in the order of the groups (Body::joined).
 /// `corners`: number of nodes before, which come first.
-std::vector<std::array<std::uint32_t, 3>> joined_triangles(const Skeleton& surface, std::int64_t corners);
+std::vector<Joined> joined_triangles(const Skeleton& surface, std::int64_t corners);
 
 /// A plane through the vessel, within a distance of a place.
 struct CutPlane {

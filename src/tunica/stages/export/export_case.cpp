@@ -214,6 +214,7 @@ void export_general(Exported& e, Entry& root) {
     e.change("time.loads", "svMultiPhysics puts the loads of the end of a step into its balance: `end`");
   add_key(general, "Save_results_to_VTK_format", "true");
   add_key(general, "Name_prefix_of_saved_VTK_files", "result");
+  add_key(general, "Start_saving_after_time_step", "1");
   add_key(general, "Increment_in_saving_VTK_files", fmt::format("{}", e.c.output.every));
   add_key(general, "Increment_in_saving_restart_files", fmt::format("{}", e.c.output.checkpoint_every));
 }

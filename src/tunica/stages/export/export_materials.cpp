@@ -1,4 +1,5 @@
 // Laws of blood and wall, and the directions of fibres.
+#include <algorithm>
 #include <cmath>
 
 #include "tunica/fluid/parameters.hpp"
@@ -204,22 +205,21 @@ void export_material(Exported& exported, const wall::LawParameters& material, do
 
 void export_fibres(Exported& exported, Entry& mesh) {
   const auto& wall = *exported.c.wall;
-  std::vector<double> directions;
-  const auto take = [&](const wall::LawParameters& material, const std::string& where) {
-    if (!wall::is_anisotropic(material)) return;
-    const auto own = angles(material);
-    if (!directions.empty() && own != directions)
-      exported.missing(where, "regions whose fibres have angles of their own", "give all regions the same angles");
-    directions = own;
-  };
-  take(wall.material, "wall.material");
-  for (const auto& [name, region] : wall.regions) take(region.material, "wall.regions." + name);
-  if (directions.empty()) return;
+  const auto is_anisotropic = [](const auto& region) { return wall::is_anisotropic(region.second.material); };
+  if (!wall::is_anisotropic(wall.material) && std::none_of(wall.regions.begin(), wall.regions.end(), is_anisotropic))
+    return;
   const auto axes = frames(exported);
+  std::vector<std::vector<double>> of_elements(axes.size(), angles(wall.material));
+  for (const auto& region : exported.data.regions)
+    for (const auto& [name, own] : wall.regions)
+      if (name == region.name && region.kind == mesh::RegionKind::wall)
+        std::fill(of_elements.begin() + region.first_element, of_elements.begin() + region.end_element,
+                  angles(own.material));
   for (std::size_t n = 0; n < 2; ++n) {
     mesh_io::VolumeArray array{.name = "FIB_DIR", .components = 3};
-    for (const auto& frame : axes) {
-      const Vec3<double> direction = std::cos(directions[n]) * frame.e1 + std::sin(directions[n]) * frame.e2;
+    for (std::size_t e = 0; e < axes.size(); ++e) {
+      const double angle = of_elements[e][n];
+      const Vec3<double> direction = std::cos(angle) * axes[e].e1 + std::sin(angle) * axes[e].e2;
       array.values.insert(array.values.end(), {direction[0], direction[1], direction[2]});
     }
     const std::string file = fmt::format("fibres_{}.vtu", n + 1);
