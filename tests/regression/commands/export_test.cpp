@@ -57,9 +57,10 @@ TEST_F(Export, ComesBackAsTheSameProblem) {
   EXPECT_NE(printed().find("lumen_inlet: 513 points and 192 Fourier modes follow the course"), std::string::npos)
       << printed();
   const std::string xml = read("out/solver.xml");
-  for (const char* part : {"<Density> 1.06 </Density>", "<Proximal_resistance> 100 </Proximal_resistance>",
-                           "<Project_from_face> lumen_wall </Project_from_face>", "<Stiffness> 1000000 </Stiffness>",
-                           "<a4> 200000 </a4>", "mesh/fibres_2.vtu"})
+  for (const char* part :
+       {"<Density> 1.06 </Density>", "<Proximal_resistance> 100 </Proximal_resistance>",
+        "<Project_from_face> lumen_wall </Project_from_face>", "<Stiffness> 1000000 </Stiffness>", "<a4> 200000 </a4>",
+        "mesh/fibres_2.vtu", "<Start_saving_after_time_step> 1 </Start_saving_after_time_step>"})
     EXPECT_NE(xml.find(part), std::string::npos) << part << "\n" << xml;
   EXPECT_EQ(printed().find("fluid.stabilisation"), std::string::npos) << printed();
   EXPECT_NE(printed().find("time.loads: svMultiPhysics puts the loads of the end"), std::string::npos) << printed();
