@@ -168,14 +168,15 @@ TUNICA_INLINE Vec3<T> momentum_residual(const Flow<T>& f, double rho, int q) {
   return r;
 }
 
-/// Stabilisation parameters, eqs (2.2), (2.3). G is the metric of the parent tetrahedron with the corners e1, e2, e3,
-/// 0; it therefore depends, mildly, on which node comes last: the origin is where related codes have it. Where v'
-/// vanishes tau_B is bounded, so that the terms with it vanish too.
+/// Stabilisation parameters, eqs (2.2), (2.3). G is the metric of the parent tetrahedron, one of whose corners is the
+/// origin and the others are e1, e2, e3; it therefore depends on which: the first one, of `vms_classic` the last one as
+/// in related codes. Where v' vanishes tau_B is bounded, so that the terms with it vanish too.
 template <class T>
 TUNICA_INLINE Tau<T> stabilisation(const Flow<T>& f, double dt, const Parameters& parameters) {
   const double rho = parameters.density;
+  const bool classic = parameters.stabilisation == Stabilisation::vms_classic;
   Vec3<T> xi[3];  // gradients of the parent coordinates
-  for (int k = 0; k < 3; ++k) xi[k] = f.shape.dN[k];
+  for (int k = 0; k < 3; ++k) xi[k] = classic ? f.shape.dN[k] : f.shape.dN[k + 1];
   const auto metric = [&xi](const Vec3<T>& x) {
     const T s0 = dot(xi[0], x), s1 = dot(xi[1], x), s2 = dot(xi[2], x);
     return s0 * s0 + s1 * s1 + s2 * s2;
@@ -188,7 +189,7 @@ TUNICA_INLINE Tau<T> stabilisation(const Flow<T>& f, double dt, const Parameters
   const T nu = f.mu * T(1.0 / rho);
   const T rate = T(4.0 * parameters.c_m * parameters.c_m / (dt * dt));
   const T diffusion = T(parameters.c_i) * nu * nu * g_g;
-  const T rate_in_c = parameters.stabilisation == Stabilisation::vms_classic ? rate : T(0.0);
+  const T rate_in_c = classic ? rate : T(0.0);
   const T rho_over_trace = T(rho) / trace_g;
   Tau<T> tau;
   for (int q = 0; q < 4; ++q) {

@@ -152,7 +152,7 @@ TYPED_TEST_SUITE(NewtonWith, Laws);
 TYPED_TEST(NewtonWith, ConvergesQuadraticallyAtFrozenTau) {
   const std::vector<double> norms = Box(1e-2).newton(TypeParam{}, true, 6);  // steps of a Courant number of about five
   EXPECT_LT(norms[4] / norms[0], 10 * std::pow(norms[3] / norms[0], 2));
-  EXPECT_LT(norms[5], 2e-12 * norms[0]);  // round-off
+  EXPECT_LT(norms[5], 1e-12 * norms[0]);
 }
 
 TYPED_TEST(NewtonWith, ConvergesFastWhenTauFollowsTheFlow) {

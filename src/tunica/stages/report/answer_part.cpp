@@ -134,11 +134,23 @@ void add_difference(const Results& r, Answers& answers) {
 }
 
 void add_lumens(const Results& r, Answers& answers) {
-  const json tears = at(r.post, "tears"), lumen = at(r.post, "false_lumen"), flap = at(r.post, "flap");
+  const json all = at(r.post, "tears"), lumen = at(r.post, "false_lumen"), flap = at(r.post, "flap");
+  const auto tears = largest_tears(all);
   for (const auto& t : tears) {
     const std::string name = readable(t.value("name", "")) + (t.value("entry", false) ? " (entry)" : "");
     answers.add(name + ": into the false lumen in a beat", at(t, "volume_into_false_lumen_ml"), "ml", "", t);
     answers.add(name + ": out of it", at(t, "volume_out_of_false_lumen_ml"), "ml", "", t);
+  }
+  if (all.size() > tears.size()) {
+    double into = 0, out = 0;
+    for (const auto& t : all) {
+      if (std::find(tears.begin(), tears.end(), t) != tears.end()) continue;
+      into += t.value("volume_into_false_lumen_ml", 0.0);
+      out += t.value("volume_out_of_false_lumen_ml", 0.0);
+    }
+    const std::string name = fmt::format("{} smaller tears together", all.size() - tears.size());
+    answers.add(name + ": into the false lumen in a beat", into, "ml", "", all[0]);
+    answers.add(name + ": out of it", out, "ml", "", all[0]);
   }
   answers.add("ejection fraction of the false lumen", at(lumen, "ejection_fraction"), "",
               "false_lumen/ejection_fraction", lumen, &stable_lumen);
@@ -237,6 +249,18 @@ std::string resolution_text(const Results& r) {
 }
 
 }  // namespace
+
+std::vector<json> largest_tears(const json& tears) {
+  constexpr std::size_t most = 4;
+  std::vector<double> areas;
+  for (const auto& tear : tears) areas.push_back(tear.value("area_mm2", 0.0));
+  std::sort(areas.begin(), areas.end(), std::greater<>());
+  const double least = areas.size() > most ? areas[most - 1] : 0;
+  std::vector<json> largest;
+  std::copy_if(tears.begin(), tears.end(), std::back_inserter(largest),
+               [&](const json& tear) { return tear.value("area_mm2", 0.0) >= least; });
+  return largest;
+}
 
 void add_targets(const Results& r, std::vector<viewer::Plot>& plots) {
   if (plots.empty() || !plots[0].in_time || plots[0].curves.empty() || plots[0].curves[0].x.empty()) return;

@@ -45,6 +45,9 @@ std::string missing(const std::string& what, const std::string& why);
 std::string drawings(const std::filesystem::path& folder,
                      const std::vector<std::pair<std::string, std::string>>& captions_by_file);
 
+/// The four tears with the largest area, in their order: small ones are told together and not drawn.
+std::vector<json> largest_tears(const json& tears);
+
 /// Figures beside targets and published values; is the beat periodic, what is not resolved. The first of `plots` are
 /// the pressures of the openings.
 std::string answer_part(const Results& r, const std::vector<viewer::Plot>& plots);

@@ -42,7 +42,7 @@ void add_cuts(const json& post, double per_mm, Scene& scene) {
   for (const auto& station : post["stations"]) centres.push_back(per_mm * vector_of(station.at("centre_mm")));
   if (const auto plane = plane_of(centres)) scene.plane = drawing::ClipPlane{plane->centre, plane->normal};
   if (!post.contains("tears") || centres.size() < 2) return;
-  for (const auto& tear : post["tears"]) {
+  for (const auto& tear : largest_tears(post["tears"])) {
     const auto place = per_mm * vector_of(tear.at("centre_mm"));
     const auto nearest =
         std::min_element(centres.begin(), centres.end(),
@@ -165,6 +165,10 @@ std::string pictures_part(const Results& r, const files::Say& say) {
   if (const json shear = r.post.is_object() ? r.post.value("wall_shear", json()) : json(); !mark(shear).empty())
     text += missing("Pictures of the flow" + mark(shear), "the warning at the figures of the cycle holds for them");
   if (scene.lumen.empty() && scene.wall.empty()) return text + missing("Pictures", "there are no fields of a run");
+  if (const auto tears = r.post.is_object() ? r.post.value("tears", json::array()) : json::array();
+      tears.size() > scene.cuts.size())
+    text += missing("Sections at the smaller tears",
+                    fmt::format("of {} tears the {} largest are drawn", tears.size(), scene.cuts.size()));
   std::error_code ignored;
   fs::create_directories(r.report.output, ignored);
   Album album(r.report.output, say);

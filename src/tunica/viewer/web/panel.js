@@ -74,6 +74,7 @@
     byId('map').value = isSigned(q) ? 'diverging' : 'viridis';
     byId('low').value = +state.range[0].toPrecision(4);
     byId('high').value = +state.range[1].toPrecision(4);
+    for (const id of ['low', 'high']) byId(id).setCustomValidity('');
     const inside = !q.bodies.includes('surface');
     const outer = q.of === 'wall' ? 1 : inside ? 0 : 0.08, inner = inside ? 0.12 : 1;
     setOpacity('outer', kinds.has('outer') ? outer : 1);
@@ -297,9 +298,13 @@
   byId('play').onclick = () => play(!clock.playing);
   byId('quantity').onchange = () => choose(byId('quantity').value);
   byId('map').onchange = () => { scene.setMap(byId('map').value); legend(); dirty = true; };
-  byId('low').onchange = byId('high').onchange = () => {
+  byId('low').onchange = byId('high').onchange = event => {
     const [low, high] = ['low', 'high'].map(id => parseFloat(byId(id).value));
-    if (!(high > low)) return;
+    for (const id of ['low', 'high']) byId(id).setCustomValidity('');
+    if (!(high > low)) {
+      event.target.setCustomValidity('The colours need two numbers, the second above the first; the old ones stay.');
+      return event.target.reportValidity();
+    }
     state.range = [low, high];
     scene.setLook(state);
     legend();
