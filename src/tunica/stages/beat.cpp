@@ -368,9 +368,10 @@ Window window_of(const std::vector<double>& times, const json& post) {
 }
 
 struct BeatMesh {
-  MeshData data;         ///< of linear elements, by which the fields are read
-  std::int64_t corners;  ///< nodes before it was subdivided, which come first
-  MeshData to_cut;       ///< where the wall is as it was meshed
+  MeshData data;                       ///< of linear elements, by which the fields are read
+  std::int64_t corners;                ///< nodes before it was subdivided, which come first
+  std::optional<MeshData> whole_wall;  ///< subdivided ones: where the wall is as it was meshed
+  const MeshData& to_cut() const { return whole_wall ? *whole_wall : data; }
 };
 
 /// The parts of the lumen's elements, by which velocity is seen, and the elements of the wall.
@@ -397,14 +398,11 @@ BeatMesh mesh_of(const case_file::Case& c, viewer::Beat& beat) {
   if (has_frame) beat.lines = fibre_lines(*c.wall, data);
   data.fields.clear();
   const auto corners = std::ssize(data.points);
-  if (c.elements != case_file::Elements::quadratic) {
-    MeshData to_cut = data;
-    return {std::move(data), corners, std::move(to_cut)};
-  }
+  if (c.elements != case_file::Elements::quadratic) return {std::move(data), corners, std::nullopt};
   mesh::add_edge_nodes(data);
   MeshData parts = mesh::subdivided(data);
-  MeshData to_cut = parts_of_lumen(parts, data.tetrahedra);
-  return {std::move(parts), corners, std::move(to_cut)};
+  MeshData whole_wall = parts_of_lumen(parts, data.tetrahedra);
+  return {std::move(parts), corners, std::move(whole_wall)};
 }
 
 viewer::FaceRoles roles_of(const case_file::Case& c) {
@@ -450,10 +448,9 @@ viewer::Beat collect_beat(const BeatSource& source, const files::Say& say) {
   const auto run = case_file::describe(c);
   analysis::FieldSeries series(run, data, source.results);
   Skeleton surface = viewer::surface_of(data, roles_of(c));
-  if (beat_mesh.corners < std::ssize(data.points))
-    surface.body.joined = viewer::joined_triangles(surface, beat_mesh.corners);
+  if (beat_mesh.whole_wall) surface.body.joined = viewer::joined_triangles(surface, beat_mesh.corners);
   const auto planes = planes_of(source.post, beat);
-  Skeleton sections = viewer::sections_of(beat_mesh.to_cut, planes);
+  Skeleton sections = viewer::sections_of(beat_mesh.to_cut(), planes);
   add_labels(data, surface, source.post, beat);
   Collector collector(data, run, series.stresses(), surface, sections);
   read_frames(series, source.post, collector, beat);

@@ -61,6 +61,12 @@ analysis::PostSettings post_settings(const case_file::Case& c) {
 
 }  // namespace
 
+artifacts::Inputs inputs_of(const std::string& text, const fs::path& case_file, const case_file::Case& settings) {
+  auto inputs = artifacts::run_inputs(text, case_file);
+  if (settings.outlets) artifacts::Fingerprints().add(inputs, "outlets.file", settings.outlets->file());
+  return inputs;
+}
+
 ReadCase read_case(MPI_Comm comm, const fs::path& case_file, const std::optional<std::string>& text) {
   ReadCase c;
   parallel::on_root(comm, [&] {
@@ -70,8 +76,7 @@ ReadCase read_case(MPI_Comm comm, const fs::path& case_file, const std::optional
     for (const auto& warning : parsed.warnings) c.warnings.push_back(format(warning));
     for (const auto& warning : artifacts::unusual_outlets(c.settings)) c.warnings.push_back(format(warning));
     c.mesh = artifacts::load_mesh(c.settings);
-    c.inputs = artifacts::run_inputs(c.text, case_file);
-    if (c.settings.outlets) artifacts::Fingerprints().add(c.inputs, "outlets.file", c.settings.outlets->file());
+    c.inputs = inputs_of(c.text, case_file, c.settings);
   });
   parallel::broadcast(comm, c.text);
   if (parallel::rank(comm) != 0) c.settings = case_file::parse_case(c.text, case_file);

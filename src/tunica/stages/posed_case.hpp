@@ -32,6 +32,10 @@ struct ReadCase {
   std::vector<std::pair<std::string, coupling::Course>> inflows{};
 };
 
+/// What results of a case depend on, its tuned outlets included. Not collective.
+artifacts::Inputs inputs_of(const std::string& text, const std::filesystem::path& case_file,
+                            const case_file::Case& settings);
+
 /// Case, mesh and tuned outlets. `text`: that of the case, where it does not stand in the file, from whose folder paths
 /// count all the same. Throws InputError with all problems. Collective, as all here.
 ReadCase read_case(MPI_Comm comm, const std::filesystem::path& case_file,

@@ -14,7 +14,6 @@
 
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/artifacts/histories.hpp"
-#include "tunica/artifacts/inputs.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/artifacts/manifest.hpp"
 #include "tunica/base/error.hpp"
@@ -25,6 +24,7 @@
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
 #include "tunica/peer_cases/unit_system.hpp"
+#include "tunica/stages/posed_case.hpp"
 
 namespace tunica::stages {
 
@@ -229,9 +229,7 @@ std::vector<std::string> write_histories(const case_file::Case& c, const mesh::M
 void check_fresh(const fs::path& case_file, const case_file::Case& c) {
   const auto results = artifacts::find_results(c.output.directory);
   if (!results || !results->damage.empty()) return;  // what is missing is told where it is read
-  auto inputs = artifacts::run_inputs(config::read_text(case_file), case_file);
-  if (c.outlets) artifacts::Fingerprints().add(inputs, "outlets.file", c.outlets->file());
-  if (results->case_hash != inputs.fingerprint())
+  if (results->case_hash != inputs_of(config::read_text(case_file), case_file, c).fingerprint())
     throw InputError(c.output.directory.string(), "holds results of another case, or of this one before it was changed",
                      "run the case, or name the folder of its results by `output.directory`");
 }
