@@ -9,7 +9,9 @@
 namespace tunica::geometry {
 
 /// Pairs of triangles with more in common than the corners or the side that they share by number. The surface need not
-/// be manifold. Triangles with coinciding corners are left out.
-std::vector<std::pair<std::int64_t, std::int64_t>> crossing_triangles(const TriangleSurface& surface);
+/// be manifold. Triangles with coinciding corners are left out. `marked`: one for each triangle; then only pairs are
+/// looked for of which one at least is marked.
+std::vector<std::pair<std::int64_t, std::int64_t>> crossing_triangles(const TriangleSurface& surface,
+                                                                      const std::vector<bool>& marked = {});
 
 }  // namespace tunica::geometry

@@ -66,16 +66,25 @@ class Crossing {
 
 }  // namespace
 
-std::vector<std::pair<std::int64_t, std::int64_t>> crossing_triangles(const TriangleSurface& surface) {
+std::vector<std::pair<std::int64_t, std::int64_t>> crossing_triangles(const TriangleSurface& surface,
+                                                                      const std::vector<bool>& marked) {
   const Crossing crossing(surface);
-  std::vector<Box> boxes;
-  for (std::int64_t t = 0; t < std::ssize(surface.triangles); ++t)
-    if (!crossing.degenerate(t)) boxes.emplace_back(crossing.box(t), t);
+  std::vector<Box> boxes, marked_boxes;
+  for (std::int64_t t = 0; t < std::ssize(surface.triangles); ++t) {
+    if (crossing.degenerate(t)) continue;
+    boxes.emplace_back(crossing.box(t), t);
+    if (!marked.empty() && marked[t]) marked_boxes.push_back(boxes.back());
+  }
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    if (crossing(a.info(), b.info())) pairs.push_back(std::minmax(a.info(), b.info()));
-  });
+  const auto judge = [&](const Box& a, const Box& b) {
+    if (a.info() != b.info() && crossing(a.info(), b.info())) pairs.push_back(std::minmax(a.info(), b.info()));
+  };
+  if (marked.empty())
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), judge);
+  else
+    CGAL::box_intersection_d(marked_boxes.begin(), marked_boxes.end(), boxes.begin(), boxes.end(), judge);
   std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());  // of two marked ones
   return pairs;
 }
 

@@ -36,7 +36,7 @@ double size_across(double diameter, const SizeSettings& settings) {
 std::pair<double, std::int64_t> largest_ball(const TriangleTree& lumen, const Point& p, const Vec3<double>& n,
                                              double reach, std::span<const std::int64_t> near) {
   constexpr double facing = 0.7, enough = 0.98;
-  const auto faces = [&](const SurfacePoint& q) { return dot(lumen.normal(q.triangle), n) < -facing; };
+  const auto faces = [&](std::int64_t triangle) { return dot(lumen.normal(triangle), n) < -facing; };
   double radius = 0.5 * reach;
   std::int64_t touched = -1;
   const auto shrink = [&](const SurfacePoint& q) {
@@ -45,10 +45,10 @@ std::pair<double, std::int64_t> largest_ball(const TriangleTree& lumen, const Po
     radius = dot(d, d) / (-2 * dot(d, n));  // through p and q; smaller, since q was inside
   };
   for (const auto t : near)
-    if (t >= 0)
-      if (const auto q = nearest_on(lumen, p - radius * n, t); q.distance < enough * radius && faces(q)) shrink(q);
+    if (t >= 0 && faces(t))
+      if (const auto q = nearest_on(lumen, p - radius * n, t); q.distance < enough * radius) shrink(q);
   for (;;) {
-    const auto q = lumen.nearest_if(p - radius * n, enough * radius, faces);
+    const auto q = lumen.nearest_of(p - radius * n, enough * radius, faces, [](const SurfacePoint&) { return true; });
     if (!q) return {touched < 0 ? infinity : 2 * radius, touched};
     const double before = radius;
     shrink(q);

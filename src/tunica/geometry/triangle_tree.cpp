@@ -72,6 +72,8 @@ TriangleTree::TriangleTree(TriangleSurface surface, std::vector<double> reach)
   order_.resize(triangles.size());
   std::iota(order_.begin(), order_.end(), 0);
   if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()), centres);
+  for (const auto t : order_)
+    corners_.push_back({points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]});
 }
 
 std::int32_t TriangleTree::build(std::int32_t first, std::int32_t end, std::span<const Point> centres) {
@@ -110,10 +112,10 @@ double TriangleTree::box_distance(const Node& node, const Point& x) {
   return std::sqrt(square);
 }
 
-SurfacePoint TriangleTree::nearest_on(const Point& x, std::int64_t triangle) const {
-  const auto& t = surface_.triangles[triangle];
-  auto found = nearest_on_triangle(x, surface_.points[t[0]], surface_.points[t[1]], surface_.points[t[2]]);
-  found.triangle = triangle;
+SurfacePoint TriangleTree::nearest_on(const Point& x, std::int32_t place) const {
+  const auto& [a, b, c] = corners_[place];
+  auto found = nearest_on_triangle(x, a, b, c);
+  found.triangle = order_[place];
   return found;
 }
 
@@ -127,9 +129,9 @@ SurfacePoint TriangleTree::offset(const Point& x, double within) const {
   best.distance = within;
   descend(
       x, [&] { return best.distance; }, [](const Node& node) { return node.reach; },
-      [&](std::int64_t triangle) {
+      [&](std::int32_t place) {
         // The reach varies little over a triangle, so that the nearest point stands for the best one.
-        auto candidate = nearest_on(x, triangle);
+        auto candidate = nearest_on(x, place);
         candidate.distance -= interpolate(reach_, candidate);
         if (candidate.distance < best.distance) best = candidate;
       });

@@ -38,12 +38,20 @@ class TriangleTree {
   /// Nearest point that `accept(point)` allows. It is asked for the nearest point of a triangle only.
   template <class Accept>
   SurfacePoint nearest_if(const Point& x, double within, const Accept& accept) const {
+    return nearest_of(
+        x, within, [](std::int64_t) { return true; }, accept);
+  }
+
+  /// The same among the triangles that `consider(triangle)` allows, which is asked first.
+  template <class Consider, class Accept>
+  SurfacePoint nearest_of(const Point& x, double within, const Consider& consider, const Accept& accept) const {
     SurfacePoint best;
     best.distance = within;
     descend(
         x, [&] { return best.distance; }, [](const Node&) { return 0.0; },
-        [&](std::int64_t triangle) {
-          auto candidate = nearest_on(x, triangle);
+        [&](std::int32_t place) {
+          if (!consider(order_[place])) return;
+          auto candidate = nearest_on(x, place);
           if (candidate.distance < best.distance && accept(candidate)) best = candidate;
         });
     return best;
@@ -72,11 +80,12 @@ class TriangleTree {
     std::int32_t right = 0;           ///< second child; the first is the next node
   };
 
-  SurfacePoint nearest_on(const Point& x, std::int64_t triangle) const;
+  SurfacePoint nearest_on(const Point& x, std::int32_t place) const;
   std::int32_t build(std::int32_t first, std::int32_t end, std::span<const Point> centres);
   static double box_distance(const Node& node, const Point& x);
 
-  /// Visits triangles of all leaves whose distance less `slack` is below `bound`, near ones first.
+  /// Visits the places in `order_` of the triangles of all leaves whose distance less `slack` is below `bound`, near
+  /// ones first.
   template <class Bound, class Slack, class Visit>
   void descend(const Point& x, const Bound& bound, const Slack& slack, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -88,7 +97,7 @@ class TriangleTree {
       if (distance >= bound()) continue;
       const Node& node = nodes_[index];
       if (node.right == 0) {
-        for (auto i = node.first; i < node.end; ++i) visit(order_[i]);
+        for (auto i = node.first; i < node.end; ++i) visit(i);
         continue;
       }
       std::pair<std::int32_t, double> left{index + 1, box_distance(nodes_[index + 1], x) - slack(nodes_[index + 1])};
@@ -105,7 +114,8 @@ class TriangleTree {
   std::vector<Vec3<double>> normals_;
   std::vector<Vec3<double>> point_normals_;                ///< angle-weighted
   std::vector<std::array<Vec3<double>, 3>> edge_normals_;  ///< of the edge after each corner
-  std::vector<std::int64_t> order_;
+  std::vector<std::int64_t> order_;                        ///< triangles, those of a leaf one after the other
+  std::vector<std::array<Point, 3>> corners_;  ///< of the triangles in this order: look-ups read no other memory
   std::vector<Node> nodes_;
 };
 

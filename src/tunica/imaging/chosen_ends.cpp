@@ -44,6 +44,10 @@ VesselEnd given_end(const std::string& name, const ImageOpening& opening, const 
                     as_opening(*end)));
     return *end;
   }
+  if (const auto end = end_near(field, opening.centre)) {
+    log(fmt::format("opening {}: a short vessel, which ends in a plane at {}", name, as_opening(*end)));
+    return *end;
+  }
   std::string list;
   for (const auto* ends : {&found.flat, &found.uneven})
     for (const auto& end : *ends) list += (list.empty() ? "" : ", ") + in_mm(end.centre);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double facing = 2.5e-3;  // m; lumens nearer to the surface between them have a flap there
 constexpr std::size_t most_listed = 20;
-constexpr std::int64_t many_contacts = 10;  // so many small ones are no accident
+constexpr std::ptrdiff_t many_small = 5;  // so many small contacts are no accident
 
 FlapSides box_about_false_lumen(const LumenMask& mask) {
   const auto& frame = mask.frame;
@@ -57,24 +57,6 @@ void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed,
   if (closed.size() > most_listed) log(fmt::format("and {} smaller ones", closed.size() - most_listed));
 }
 
-/// `contacts`: largest first.
-double smallest_tear(const std::vector<Contact>& contacts, const TearBounds& bounds) {
-  const double least = bounds.at_least();
-  const auto small = std::count_if(contacts.begin(), contacts.end(), [&](const auto& c) { return c.area < least; });
-  if (bounds.smallest || small < many_contacts) return least;
-  // Contacts that noise makes have all areas up to their largest one; tears stand apart from them.
-  constexpr double gap = 1.5;
-  double bound = 3 * least, largest_below = 0;
-  for (auto contact = contacts.rbegin(); contact != contacts.rend(); ++contact) {
-    if (contact->area >= bound) {
-      if (contact->area > gap * largest_below || contact->area > 6 * least) break;
-      bound = 1.001 * contact->area;
-    }
-    largest_below = contact->area;
-  }
-  return bound;
-}
-
 /// The voxels between the lumens within the circle of a given tear.
 std::vector<Contact> given_tears(const LumenMask& mask, const std::vector<GivenTear>& given) {
   const auto sides = flap_sides(mask, {});
@@ -100,6 +82,20 @@ std::vector<Contact> given_tears(const LumenMask& mask, const std::vector<GivenT
 }
 
 }  // namespace
+
+double TearBounds::smallest_of(std::vector<double> areas) const {
+  std::sort(areas.begin(), areas.end());
+  const auto small = std::lower_bound(areas.begin(), areas.end(), at_least());
+  if (smallest || small - areas.begin() < many_small) return at_least();
+  // Noise opens places of all areas up to some largest one, and tears stand apart from them.
+  double best = 1, bound = 6 * at_least();
+  for (auto next = small; next != areas.end() && *(next - 1) < 6 * at_least(); ++next)
+    if (const double gap = *next / *(next - 1); gap > best) {
+      best = gap;
+      bound = std::max(at_least(), std::sqrt(*next * *(next - 1)));
+    }
+  return bound;
+}
 
 config::Schema<GivenTear> GivenTear::schema() {
   using namespace config;
@@ -155,7 +151,9 @@ std::vector<Contact> find_tears(const LumenMask& mask, const FlapSettings& flap,
   }
   std::vector<Contact> tears, closed;
   auto contacts = find_contacts(mask, 0);
-  const double smallest = smallest_tear(contacts, bounds);
+  std::vector<double> areas;
+  for (const auto& contact : contacts) areas.push_back(contact.area);
+  const double smallest = bounds.smallest_of(areas);
   double open = 0;
   for (auto& contact : contacts) {
     open += contact.touching;

@@ -23,11 +23,14 @@ struct FlapSettings {
 
 /// Which places where the lumens touch are tears.
 struct TearBounds {
-  std::optional<double> smallest{};  ///< smaller contacts are closed [m^2]; none: `at_least`, or more (`find_tears`)
+  std::optional<double> smallest{};  ///< smaller contacts are closed [m^2]; none: see `smallest_of`
   double most_open = 0.4;            ///< share of the flap that tears may take; with more, the labels have no flap
 
   /// 10 mm^2.
   double at_least() const { return smallest.value_or(10e-6); }
+  /// Of these open places, the area from which on they are tears: `at_least`, or, where five are smaller, so that the
+  /// labels are rough, up to six times as much: within the widest gap between the areas.
+  double smallest_of(std::vector<double> areas) const;
 };
 
 /// The two sides of the flap in a box that holds the false lumen.
@@ -42,10 +45,8 @@ struct FlapSides {
 /// `open`: voxels of the mask in tears.
 FlapSides flap_sides(const LumenMask& mask, const std::vector<std::int64_t>& open);
 
-/// Sorts the contacts by `bounds` and lists them in the log. Where no smallest one is given and there are many small
-/// ones, the labels are so rough that contacts up to three times as large come from that too. With `insert`, the given
-/// tears are found in their place. InputError where the lumens touch nearly everywhere, and for given tears that are
-/// not between the lumens.
+/// Sorts the contacts by `bounds` and lists them in the log. With `insert`, the given tears are found in their place.
+/// InputError where the lumens touch nearly everywhere, and for given tears that are not between the lumens.
 std::vector<Contact> find_tears(const LumenMask& mask, const FlapSettings& flap, const TearBounds& bounds,
                                 const Log& log);
 

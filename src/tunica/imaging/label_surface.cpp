@@ -208,11 +208,11 @@ TriangleSurface around_thrombus(const LabelImage& image, const SurfaceSettings& 
 
 /// The smooth field, with the topology of the labels.
 SmoothField lumen_field(const LumenMask& mask, const SurfaceSettings& settings, double sigma,
-                        const std::vector<Contact>& tears, const Log& log) {
+                        const std::vector<Contact>& tears, std::int64_t rings, const Log& log) {
   const double voxel = mask.frame.largest_spacing();
   auto field = smooth_field(mask, sigma);
   if (!settings.labels.false_lumen) {
-    settle(nullptr, {}, settings.tears.at_least(), field, log);
+    settle(nullptr, {}, rings, field, log);
     return field;
   }
   std::vector<std::int64_t> open;
@@ -222,7 +222,7 @@ SmoothField lumen_field(const LumenMask& mask, const SurfaceSettings& settings, 
   // Of 2 G - G * G across a plane.
   const double slope = (2 - std::sqrt(0.5)) / std::sqrt(2 * M_PI) / (sigma * voxel);
   hold_apart(sides, gap, slope, mask.frame, field);
-  settle(&sides, tears, settings.tears.at_least(), field, log);
+  settle(&sides, tears, rings, field, log);
   return field;
 }
 
@@ -288,8 +288,8 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
       .quantity(
           "smallest_tear", [](S& s) -> std::optional<double>& { return s.tears.smallest; }, dimension::area,
           range(0, 1e-3),
-          "Smaller contacts of true and false lumen are closed, and listed. When left out, 10 mm^2, or 30 mm^2 where "
-          "there are ten smaller ones: the labels are then rough")
+          "Smaller contacts of true and false lumen are closed, and listed. When left out, 10 mm^2; where five are "
+          "smaller, so that the labels are rough, up to 60 mm^2: within the widest gap between the areas")
       .number(
           "most_open", [](S& s) -> double& { return s.tears.most_open; }, range(0, 1),
           "Share of the surface between the lumens that tears may take; with more, the labels have no flap")
@@ -325,20 +325,20 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   const double sigma = filter / smallest_spacing(mask.frame);
   if (dissected) result.tears = find_tears(mask, settings.flap, settings.tears, log);
   if (!settings.flap.insert) take_areas(contacts, result.tears);
-  const auto rings = open_bridges(mask, dissected, settings.tears.at_least(), settings.repairs[Repair::bridges], log);
+  const auto rings = open_rings(mask, dissected, settings.tears, settings.repairs[Repair::bridges], log);
   result.ends = choose_ends(mask, smooth_field(mask, sigma), settings, log);
   check_border(mask, result.ends);
   check_inlet(mask, inlet_of(result.ends, settings));
   for (const auto& end : result.ends) continue_beyond(end, continued * voxel, mask);
   drop_beyond_ends(mask);
-  auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, log)), result.parts);
+  auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, rings, log)), result.parts);
   take_noise(surface, voxel, log);
   if (!result.tears.empty()) narrow_tears(mask, result.tears, surface, log);
   result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
   result.of_false_lumen = points_at(Kind::false_lumen, mask, result.lumen);
   log_shape(result, log);
   const auto tears = std::ssize(result.tears);
-  check_genus(result, settings.genus ? *settings.genus : dissected ? std::max<std::int64_t>(0, tears - 1) : rings, log);
+  check_genus(result, settings.genus ? *settings.genus : std::max<std::int64_t>(0, tears - 1) + rings, log);
   if (settings.labels.thrombus) result.with_thrombus = around_thrombus(image, settings, result.ends, log);
   return result;
 }

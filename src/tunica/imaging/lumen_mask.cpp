@@ -231,7 +231,7 @@ LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::in
                      const Repairs& repairs, bool apart) {
   check_labels(image, labels, log);
   auto mask = cropped(image, labels, margin);
-  mend_slices(mask, repairs[Repair::slices], log);
+  mend_slices(mask, !labels.false_lumen, repairs[Repair::slices], log);
   const auto true_before = count_of(mask, Kind::true_lumen), false_before = count_of(mask, Kind::false_lumen);
   clean(mask, repairs, apart, log);
   check_connected(mask, Kind::true_lumen, "true", true_before);

@@ -44,6 +44,13 @@ bool is_rough(const ImageFrame& frame, const Handle& handle) {
   return handle.way <= short_way || area < 4 * voxel * voxel || std::pow(2 * reach + voxel, 2) > film * area;
 }
 
+/// At most two voxels thick.
+bool is_film(const ImageFrame& frame, const std::vector<float>& depth, const std::vector<std::int64_t>& voxels) {
+  const auto deepest =
+      std::max_element(voxels.begin(), voxels.end(), [&](auto a, auto b) { return depth[a] < depth[b]; });
+  return depth[*deepest] < 1.2 * frame.largest_spacing();
+}
+
 class Settling {
  public:
   Settling(const FlapSides* sides, SmoothField& field) : sides_(sides), field_(field), frame_(field.frame) {
@@ -56,17 +63,17 @@ class Settling {
       if ((true_[i] || false_[i]) && at_border(i)) true_[i] = false_[i] = 0;
   }
 
-  /// Without a dissection: rings of at least `smallest_tear` stay.
-  void settle_single(double smallest_tear, const Log& log) {
-    make_ball(true_, "lumen", log, smallest_tear);
+  /// One label for both lumens.
+  void settle_single(std::int64_t rings, const Log& log) {
+    make_ball(true_, "lumen", rings, log);
     take_fingers(log);
     write();
   }
 
-  void settle_both(const std::vector<Contact>& tears, const Log& log) {
-    make_ball(true_, "true lumen", log);
+  void settle_both(const std::vector<Contact>& tears, std::int64_t rings, const Log& log) {
+    make_ball(true_, "true lumen", 0, log);
     part_from_true();
-    make_ball(false_, "false lumen", log);
+    make_ball(false_, "false lumen", rings, log);
     one_contact_each(tears, log);
     fill_pits(log);
     take_fingers(log);
@@ -101,7 +108,8 @@ class Settling {
     });
   }
 
-  void make_ball(VoxelSet& set, const char* name, const Log& log, double smallest_kept = 1) {
+  /// But for the `rings` that have the widest openings.
+  void make_ball(VoxelSet& set, const char* name, std::int64_t rings, const Log& log) {
     const double voxel = frame_.voxel_volume();
     const double lost = voxel * static_cast<double>(keep_largest_part(frame_, set));
     if (lost > largest_loss)
@@ -109,20 +117,20 @@ class Settling {
           fmt::format("{:.2f} ml of the {} are cut off from the rest where it is narrower than the voxels "
                       "can show; label it wider there, or give a smaller `smoothing`",
                       1e6 * lost, name));
-    const auto handles = remove_handles(frame_, depth_in(frame_, set), set);
-    std::int64_t cut = 0;
-    for (const auto& handle : handles) {
-      const double area = area_of(frame_, handle.voxels);
-      if (area >= smallest_kept) {
-        for (const auto i : handle.voxels) set[i] = 1;
-        continue;
-      }
-      ++cut;
-      if (handle.way > short_way)
+    auto handles = remove_handles(frame_, depth_in(frame_, set), set);
+    std::stable_sort(handles.begin(), handles.end(), [](const Handle& a, const Handle& b) {
+      const bool longer = a.way > short_way, other = b.way > short_way;
+      return longer != other ? longer : a.voxels.size() > b.voxels.size();
+    });
+    const auto kept = std::min(rings, std::ssize(handles));
+    for (auto handle = handles.begin(); handle != handles.begin() + kept; ++handle)
+      for (const auto i : handle->voxels) set[i] = 1;
+    for (auto handle = handles.begin() + kept; handle != handles.end(); ++handle)
+      if (handle->way > short_way)
         log(fmt::format("{}: walls of vessels that the filter had joined are kept apart at {}, {:.1f} mm^2", name,
-                        in_mm(middle_of(frame_, handle.voxels)), 1e6 * area));
-    }
-    if (cut > 0) log(fmt::format("{}: {} handles of the filtered labels opened", name, cut));
+                        in_mm(middle_of(frame_, handle->voxels)), 1e6 * area_of(frame_, handle->voxels)));
+    if (kept < std::ssize(handles))
+      log(fmt::format("{}: {} handles of the filtered labels opened", name, std::ssize(handles) - kept));
   }
 
   /// Beside a tear the lumens may touch, nowhere else.
@@ -238,49 +246,58 @@ class Settling {
 
 }  // namespace
 
-std::int64_t open_bridges(LumenMask& mask, bool dissected, double smallest_tear, bool repair, const Log& log) {
-  std::int64_t tears = 0;
+std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bounds, bool repair, const Log& log) {
+  std::int64_t kept = 0;
   std::vector<Problem> problems;
   for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
     auto set = voxels_of(mask.kinds, kind);
     if (std::count(set.begin(), set.end(), 1) == 0) continue;
     const auto depth = depth_in(mask.frame, set);
-    for (const auto& handle : remove_handles(mask.frame, depth, set)) {
-      // Most roughness the filter takes away; `settle` does the rest. The false lumen has no vessels that could touch.
-      if (is_rough(mask.frame, handle) || (dissected && kind == Kind::false_lumen)) continue;
-      const double area = area_of(mask.frame, handle.voxels);
-      const auto place = in_mm(middle_of(mask.frame, handle.voxels));
-      if (!dissected && area >= smallest_tear) {
-        ++tears;
-        log(fmt::format("the lumen makes a ring, whose narrowest place is at {}, {:.0f} mm^2: a tear", place,
-                        1e6 * area));
+    const auto handles = remove_handles(mask.frame, depth, set);
+    // Vessels alone make rings where they are joined; in a false lumen, or where both have one label, rings are open.
+    const bool vessels = dissected && kind == Kind::true_lumen;
+    std::vector<double> areas;
+    for (const auto& handle : handles) areas.push_back(area_of(mask.frame, handle.voxels));
+    const double smallest = bounds.smallest_of(areas);
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+      const auto& voxels = handles[h].voxels;
+      const auto place = in_mm(middle_of(mask.frame, voxels));
+      // Most roughness the filter takes away; `settle` does the rest.
+      if (vessels ? is_rough(mask.frame, handles[h]) : handles[h].way <= short_way) continue;
+      if (!vessels && areas[h] >= smallest && !is_film(mask.frame, depth, voxels)) {
+        ++kept;
+        log(fmt::format("the {}lumen makes a ring, whose narrowest place is at {}, {:.0f} mm^2{}",
+                        dissected ? "false " : "", place, 1e6 * areas[h], dissected ? "" : ": a tear"));
         continue;
       }
-      if (dissected && !repair) {
+      if (vessels && !repair) {
         problems.push_back(
             {"image",
-             fmt::format("the true lumen makes a ring of {:.0f} mm: vessels are joined by a bridge at {}, "
+             fmt::format("the true lumen makes a ring of {}{:.0f} mm: vessels are joined by a bridge at {}, "
                          "{:.1f} mm^2",
-                         1e3 * handle.way, place, 1e6 * area),
+                         handles[h].way < longest_way ? "" : "at least ", 1e3 * handles[h].way, place, 1e6 * areas[h]),
              "part them in the segmentation, or have the bridge cut by `repair: [bridges]`"});
         continue;
       }
-      for (const auto i : handle.voxels) mask.kinds[i] = Kind::tissue;
-      log(fmt::format("{} at {} closed, {:.1f} mm^2", dissected ? "bridge between vessels" : "hole in the flap", place,
-                      1e6 * area));
+      for (const auto i : voxels) mask.kinds[i] = Kind::tissue;
+      log(fmt::format("{} at {} closed, {:.1f} mm^2",
+                      vessels     ? "bridge between vessels"
+                      : dissected ? "ring of the false lumen"
+                                  : "hole in the flap",
+                      place, 1e6 * areas[h]));
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  return tears;
+  return kept;
 }
 
-void settle(const FlapSides* sides, const std::vector<Contact>& tears, double smallest_tear, SmoothField& field,
+void settle(const FlapSides* sides, const std::vector<Contact>& tears, std::int64_t rings, SmoothField& field,
             const Log& log) {
   Settling settling(sides, field);
   if (sides)
-    settling.settle_both(tears, log);
+    settling.settle_both(tears, rings, log);
   else
-    settling.settle_single(smallest_tear, log);
+    settling.settle_single(rings, log);
 }
 
 }  // namespace tunica::imaging

@@ -46,8 +46,9 @@ class SliceSearch {
   }
 
   /// Vessels that slice `at` lacks, by the sections in the slice before.
-  void look(std::int64_t at, std::vector<Gap>& gaps) {
+  void look(std::int64_t at, bool whole_slices, std::vector<Gap>& gaps) {
     const auto& size = mask_.frame.size;
+    if (whole_slices && !lacks_most(at)) return;
     for (std::int64_t j = 0; j < size[b_]; ++j)
       for (std::int64_t i = 0; i < size[a_]; ++i) {
         const auto here = at * stride_ + i * along_a_ + j * along_b_;
@@ -57,6 +58,17 @@ class SliceSearch {
   }
 
  private:
+  bool lacks_most(std::int64_t at) const {
+    std::int64_t before = 0, missing = 0;
+    for (std::int64_t j = 0; j < mask_.frame.size[b_]; ++j)
+      for (std::int64_t i = 0; i < mask_.frame.size[a_]; ++i) {
+        const auto here = at * stride_ + i * along_a_ + j * along_b_;
+        before += mask_.is_lumen(here - stride_);
+        missing += gap_at(mask_, here, at, axis_, stride_) > 0;
+      }
+    return static_cast<double>(missing) > missing_share * static_cast<double>(before);
+  }
+
   void flood(std::int64_t start, std::int64_t at, std::vector<Gap>& gaps) {
     std::vector<std::int64_t> section{start};
     seen_[start - stride_] = true;
@@ -89,11 +101,12 @@ class SliceSearch {
   std::vector<bool> seen_;
 };
 
-std::vector<Gap> find_gaps(const LumenMask& mask) {
+/// `whole_slices`: only where a slice lacks most of the lumen.
+std::vector<Gap> find_gaps(const LumenMask& mask, bool whole_slices) {
   std::vector<Gap> gaps;
   for (int axis = 0; axis < 3; ++axis) {
     SliceSearch search(mask, axis);
-    for (std::int64_t at = 1; at + 1 < mask.frame.size[axis]; ++at) search.look(at, gaps);
+    for (std::int64_t at = 1; at + 1 < mask.frame.size[axis]; ++at) search.look(at, whole_slices, gaps);
   }
   return gaps;
 }
@@ -135,8 +148,8 @@ std::string described(const Gap& gap, const LumenMask& mask) {
 
 }  // namespace
 
-void mend_slices(LumenMask& mask, bool repair, const Log& log) {
-  const auto gaps = find_gaps(mask);
+void mend_slices(LumenMask& mask, bool one_label, bool repair, const Log& log) {
+  const auto gaps = find_gaps(mask, one_label);
   std::vector<Problem> problems;
   for (const auto& gap : gaps) {
     if (repair) {

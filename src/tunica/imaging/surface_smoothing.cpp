@@ -60,13 +60,13 @@ class Neighbourhood {
 using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
 /// Triangles that face away from each other with less than `gap` between them: they cross when both move by half of it.
-Pairs too_close(const geometry::TriangleSurface& surface, double gap) {
+Pairs too_close(const geometry::TriangleSurface& surface, double gap, const std::vector<bool>& moved) {
   constexpr double opposite = -0.3;
   auto wider = surface;
   const auto normals = geometry::point_normals(surface);
   for (std::size_t p = 0; p < normals.size(); ++p) wider.points[p] = wider.points[p] + (0.5 * gap) * normals[p];
   Pairs result;
-  for (const auto& pair : geometry::crossing_triangles(wider)) {
+  for (const auto& pair : geometry::crossing_triangles(wider, moved)) {
     const auto a = geometry::area_vector(surface, surface.triangles[pair.first]);
     const auto b = geometry::area_vector(surface, surface.triangles[pair.second]);
     if (dot(a, b) < opposite * norm(a) * norm(b)) result.push_back(pair);
@@ -114,9 +114,10 @@ std::int64_t untangle(geometry::TriangleSurface& surface, std::span<const Point>
   const Neighbourhood near(surface);
   const auto smooth = surface.points;
   std::vector<double> back(smooth.size(), 0);
+  std::vector<bool> moved;  // triangles, since the round before; at first all
   for (int round = 0; round < rounds; ++round) {
-    auto pairs = geometry::crossing_triangles(surface);
-    const auto close = too_close(surface, gap);
+    auto pairs = geometry::crossing_triangles(surface, moved);
+    const auto close = too_close(surface, gap, moved);
     pairs.insert(pairs.end(), close.begin(), close.end());
     if (pairs.empty()) break;
     std::vector<bool> marked(smooth.size(), false);
@@ -129,6 +130,10 @@ std::int64_t untangle(geometry::TriangleSurface& surface, std::span<const Point>
       back[p] = std::min(1.0, back[p] + step);
       surface.points[p] = (1 - back[p]) * smooth[p] + back[p] * before[p];
     }
+    near.widen(marked);  // whose normals have turned
+    moved.assign(surface.triangles.size(), false);
+    for (std::size_t t = 0; t < moved.size(); ++t)
+      for (const auto p : surface.triangles[t]) moved[t] = moved[t] || marked[p];
   }
   return std::ssize(back) - std::count(back.begin(), back.end(), 0.0);
 }

@@ -469,6 +469,27 @@ VesselEnds find_ends(const LumenMask& mask, const SmoothField& field) {
   return ends;
 }
 
+std::optional<VesselEnd> end_near(const SmoothField& field, const Point& place) {
+  constexpr int directions = 200;
+  constexpr double largest_rest = 0.15;  // of the section before the end, behind it
+  const double voxel = field.frame.largest_spacing(), golden = M_PI * (3 - std::sqrt(5.0));
+  std::optional<VesselEnd> best;
+  double least = largest_rest;
+  for (int k = 0; k < directions; ++k) {
+    const double z = 1 - (2.0 * k + 1) / directions, r = std::sqrt(1 - z * z);
+    const Vec3<double> axis{{r * std::cos(golden * k), r * std::sin(golden * k), z}};
+    const auto end = flat_face(field, place - 3 * voxel * axis, axis);
+    if (!end || norm(end->centre - place) > std::max(0.7 * end->radius, 3 * voxel)) continue;
+    const auto before = section(field, end->centre - 1.5 * voxel * end->normal, end->normal);
+    if (before.places.empty() || area_of(before) < roundest * M_PI * before.radius * before.radius) continue;
+    const double rest = area_of(section(field, end->centre + 1.5 * voxel * end->normal, end->normal)) / area_of(before);
+    if (rest >= least) continue;
+    least = rest;
+    best = end;
+  }
+  return best;
+}
+
 std::optional<VesselEnd> end_at(const SmoothField& field, const Point& centre, const Vec3<double>& normal) {
   const auto cut = section(field, centre, normal);
   if (cut.places.size() < 4 || cut.radius >= 0.9 * widest) return {};

@@ -25,6 +25,10 @@ struct VesselEnds {
 /// cross-section becomes smaller.
 VesselEnds find_ends(const LumenMask& mask, const SmoothField& field);
 
+/// The flat face in which a vessel ends about a place, in whichever direction: also of a vessel that is shorter than
+/// wide, which shows no axis. None where no plane has the lumen on one side alone.
+std::optional<VesselEnd> end_near(const SmoothField& field, const Point& place);
+
 /// The end of a vessel that is cut by a plane: `radius` is found from the cross-section about `centre`. None where
 /// there is no lumen within two voxels of the centre in the plane, or it is wider than 8 cm.
 std::optional<VesselEnd> end_at(const SmoothField& field, const Point& centre, const Vec3<double>& normal);

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <limits>
 #include <queue>
-#include <unordered_map>
 
 namespace tunica::imaging {
 
@@ -126,38 +125,52 @@ VoxelSet grown_ball(const ImageFrame& frame, const std::vector<float>& depth, co
   return ball;
 }
 
-/// Longest of the shortest ways in the set from one voxel beside `cut` to the others [m].
-double way_around(const ImageFrame& frame, const VoxelSet& ball, const std::vector<std::int64_t>& cut) {
-  std::unordered_map<std::int64_t, double> way;
-  std::vector<std::int64_t> rim;
-  for (const auto i : cut)
-    for_each_joined(frame, i, [&](std::int64_t other) {
-      if (ball[other] && way.emplace(other, -1).second) rim.push_back(other);
-    });
-  if (rim.empty()) return 0;
-  way.clear();
-  std::size_t left = rim.size();
-  std::unordered_map<std::int64_t, bool> wanted;
-  for (const auto i : rim) wanted[i] = true;
-  double farthest = 0;
-  const double step = frame.largest_spacing();
-  std::vector<std::int64_t> front{rim.front()};
-  way[rim.front()] = 0;
-  for (double at = 0; !front.empty() && left > 0; at += step) {
-    std::vector<std::int64_t> next;
-    for (const auto i : front) {
-      if (wanted.contains(i)) {
-        --left;
-        farthest = at;
-      }
-      for_each_joined(frame, i, [&](std::int64_t other) {
-        if (ball[other] && way.emplace(other, at + step).second) next.push_back(other);
+/// Ways within a set about voxels that were cut out of it.
+class WaysAround {
+ public:
+  WaysAround(const ImageFrame& frame, const VoxelSet& set) : frame_(frame), set_(set), mark_(set.size(), 0) {}
+
+  /// Longest of the shortest ways from one voxel beside `cut` to the others [m], at most `longest_way`.
+  double around(const std::vector<std::int64_t>& cut) {
+    const auto rim_mark = ++last_, seen_mark = ++last_;
+    std::int64_t left = 0, first = -1;
+    for (const auto i : cut)
+      for_each_joined(frame_, i, [&](std::int64_t other) {
+        if (!set_[other] || mark_[other] == rim_mark) return;
+        mark_[other] = rim_mark;
+        ++left;
+        first = other;
       });
+    if (left == 0) return 0;
+    const double step = frame_.largest_spacing();
+    double farthest = 0;
+    std::vector<std::int64_t> front{first};
+    mark_[first] = seen_mark;
+    --left;
+    for (double at = step; !front.empty() && left > 0; at += step) {
+      if (at >= longest_way) return longest_way;
+      std::vector<std::int64_t> next;
+      for (const auto i : front)
+        for_each_joined(frame_, i, [&](std::int64_t other) {
+          if (!set_[other] || mark_[other] == seen_mark) return;
+          if (mark_[other] == rim_mark) {
+            --left;
+            farthest = at;
+          }
+          mark_[other] = seen_mark;
+          next.push_back(other);
+        });
+      front = std::move(next);
     }
-    front = std::move(next);
+    return farthest;
   }
-  return farthest;
-}
+
+ private:
+  const ImageFrame& frame_;
+  const VoxelSet& set_;
+  std::vector<std::int32_t> mark_;  ///< of the last search that came to each voxel
+  std::int32_t last_ = 0;
+};
 
 /// Voxels of a value in blocks of 2 x 2 x 2 voxels of this value.
 VoxelSet voxels_in_blocks(const ImageFrame& frame, const VoxelSet& set, std::uint8_t value) {
@@ -212,6 +225,7 @@ std::vector<Handle> remove_handles(const ImageFrame& frame, const std::vector<fl
   const auto ball = grown_ball(frame, depth, set);
   std::vector<Handle> handles;
   std::vector<bool> seen(set.size(), false);
+  WaysAround ways(frame, ball);
   for (std::int64_t start = 0; start < std::ssize(set); ++start) {
     if (!set[start] || ball[start] || seen[start]) continue;
     Handle handle{{start}, 0};
@@ -222,7 +236,7 @@ std::vector<Handle> remove_handles(const ImageFrame& frame, const std::vector<fl
         seen[other] = true;
         handle.voxels.push_back(other);
       });
-    handle.way = way_around(frame, ball, handle.voxels);
+    handle.way = ways.around(handle.voxels);
     if (handle.way > 0) handles.push_back(std::move(handle));
   }
   set = ball;

@@ -19,6 +19,8 @@ using VoxelSet = std::vector<std::uint8_t>;
 bool is_simple(const ImageFrame& frame, const VoxelSet& set, std::int64_t index);
 
 /// A place where a set closes to a ring, with the voxels that have to be taken out to open it.
+inline constexpr double longest_way = 0.1;  // m; the way round a handle is not looked for farther
+
 struct Handle {
   std::vector<std::int64_t> voxels;
   double way = 0;  ///< from one side to the other within the set, not through these voxels [m]; 0: none was found

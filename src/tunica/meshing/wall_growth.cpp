@@ -127,22 +127,50 @@ void for_each_place(const geometry::Grid& grid, Visit visit) {
 }
 
 /// Distance less thickness and `level`, exact within two grid steps of zero. Farther away only its sign matters, and
-/// the value, which changes no faster than the place, says how many samples can be passed over.
-geometry::Grid sample(const WallFunction& wall, double level, double spacing) {
-  const double exact = 2 * spacing;
-  auto grid = grid_around(wall.tree().surface(), wall.reach() + level + 2 * exact, spacing);
-  grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
-  std::int64_t near = -1;
-  for (std::int64_t k = 0; k < grid.size[2]; ++k)
-    for (std::int64_t j = 0; j < grid.size[1]; ++j)
-      for (std::int64_t i = 0; i < grid.size[0];) {
-        const double value = wall(grid.place(i, j, k), level + exact, near) - level;
-        const auto same = std::max<std::int64_t>(0, static_cast<std::int64_t>((std::abs(value) - exact) / spacing));
-        const auto end = std::min(grid.size[0], i + 1 + same);
-        for (; i < end; ++i) grid.values[grid.index(i, j, k)] = static_cast<float>(value);
-      }
-  return grid;
-}
+/// the value, which changes no faster than the place, says for which blocks of samples one of them stands.
+class Sampling {
+ public:
+  Sampling(const WallFunction& wall, double level, double spacing)
+      : wall_(wall),
+        level_(level),
+        exact_(2 * spacing),
+        grid_(grid_around(wall.tree().surface(), wall.reach() + level + 2 * exact_, spacing)) {
+    grid_.values.resize(grid_.size[0] * grid_.size[1] * grid_.size[2]);
+    for (std::int64_t k = 0; k < grid_.size[2]; k += largest_block)
+      for (std::int64_t j = 0; j < grid_.size[1]; j += largest_block)
+        for (std::int64_t i = 0; i < grid_.size[0]; i += largest_block) fill({i, j, k}, largest_block);
+  }
+  geometry::Grid take() { return std::move(grid_); }
+
+ private:
+  using Corner = std::array<std::int64_t, 3>;
+  static constexpr std::int64_t largest_block = 16;
+
+  void fill(const Corner& first, std::int64_t side) {
+    for (int d = 0; d < 3; ++d)
+      if (first[d] >= grid_.size[d]) return;
+    Corner middle = first;
+    for (int d = 0; d < 3; ++d) middle[d] = std::min(first[d] + side / 2, grid_.size[d] - 1);
+    const double value = wall_(grid_.place(middle[0], middle[1], middle[2]), level_ + exact_, near_) - level_;
+    const double farthest = std::sqrt(3.0) * static_cast<double>(side / 2) * grid_.spacing;
+    if (side > 1 && std::abs(value) - exact_ < farthest) {
+      for (int part = 0; part < 8; ++part)
+        fill({first[0] + (part & 1) * side / 2, first[1] + (part >> 1 & 1) * side / 2,
+              first[2] + (part >> 2) * side / 2},
+             side / 2);
+      return;
+    }
+    for (auto k = first[2]; k < std::min(first[2] + side, grid_.size[2]); ++k)
+      for (auto j = first[1]; j < std::min(first[1] + side, grid_.size[1]); ++j)
+        for (auto i = first[0]; i < std::min(first[0] + side, grid_.size[0]); ++i)
+          grid_.values[grid_.index(i, j, k)] = static_cast<float>(value);
+  }
+
+  const WallFunction& wall_;
+  double level_, exact_;
+  geometry::Grid grid_;
+  std::int64_t near_ = -1;  ///< triangle found at the place before
+};
 
 /// Turns samples of the distance to a surface `depth` outside the wanted one into samples of that distance to the
 /// wanted one: `outside` is the surface, and what lies deeper than `depth` below it is inside.
@@ -241,7 +269,7 @@ geometry::TriangleSurface grow_wall(const geometry::TriangleSurface& lumen, cons
   const double spacing = settings.spacing, fillet = settings.fillet;
   const WallFunction wall(lengthened(lumen, thickness, openings, fillet + 4 * spacing));
   // Closing: grown too far by the radius of the fillets and eroded by it again, the notches between vessels are round.
-  auto grid = sample(wall, fillet, spacing);
+  auto grid = Sampling(wall, fillet, spacing).take();
   erode(geometry::TriangleTree(without_cavities(geometry::zero_surface(grid))), fillet, grid);
   auto outer = without_cavities(geometry::zero_surface(grid));
   const double beyond = wall.reach() + fillet + 3 * spacing;
