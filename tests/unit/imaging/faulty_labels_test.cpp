@@ -6,12 +6,14 @@
 #include <numbers>
 
 #include "small_images.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/label_surface.hpp"
 
 namespace tunica::imaging {
 namespace {
 
+using tunica::test::contains;
 using namespace testing;
 
 /// A tube of radius 7 mm between z = -20 and 20 mm with a false lumen at x < 0 of |z| < 14 mm behind a flap of 2.1 mm,
@@ -50,8 +52,6 @@ Made make(const LabelImage& image, const SurfaceSettings& asked) {
   }
   return made;
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(FaultyLabels, WithoutAnyAreMeshed) {
   const auto made = make(image_of(dissected, size, straight), settings());

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "temporary_folder.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
@@ -17,6 +18,7 @@ namespace tunica::mesh_io {
 
 namespace {
 
+using tunica::test::contains;
 using test::message_of;
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -139,8 +141,6 @@ mesh::LoadedMesh read_with(const Flaws& flaws) {
 std::string refusal(const Flaws& flaws) {
   return message_of<InputError>([&] { read_with(flaws); });
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 void expect_same_as_block(const mesh::LoadedMesh& mesh) {
   mesh::testing::expect_sound(mesh.data);
