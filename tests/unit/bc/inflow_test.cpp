@@ -16,7 +16,7 @@ namespace {
 using tunica::test::contains;
 using namespace tunica;
 using namespace tunica::bc;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Disc {
   std::vector<Vec3<double>> points;

@@ -17,7 +17,7 @@ using tunica::test::contains;
 using namespace tunica::bc;
 using tunica::InputError;
 namespace fs = std::filesystem;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Table sampled(int intervals, double period, double (*f)(double)) {
   Table table;
