@@ -62,7 +62,7 @@ struct FieldSeries::Implementation {
   /// Points of the files by the nodes of a region, and their cells by the elements.
   struct Numbering {
     std::vector<std::int64_t> nodes, elements;  ///< of MeshData, by point, and by cell and its part
-    std::size_t parts = 1;                      ///< elements of MeshData in a cell: 8 where a quadratic one is subdivided
+    std::size_t parts = 1;  ///< elements of MeshData in a cell: 8 where a quadratic one is subdivided
   };
 
   const RunDescription description;

@@ -126,8 +126,8 @@ class Reader {
     if (std::memcmp(found, magic, sizeof magic) != 0) damaged(file_, "is no tunica checkpoint");
     read(&version_, sizeof version_);
     if (version_ < 1 || version_ > newest_version)
-      damaged(file_,
-              fmt::format("has format version {}, this tunica reads version {} and earlier ones", version_, newest_version));
+      damaged(file_, fmt::format("has format version {}, this tunica reads version {} and earlier ones", version_,
+                                 newest_version));
     read(&length, sizeof length);
     if (length > longest_header) damaged(file_, "the checkpoint is damaged");
     std::string text(length, '\0');
@@ -281,8 +281,8 @@ bool read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
 Checkpoint read_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const coupling::State& start,
                            std::uint64_t mesh_hash, const std::string& remedy) {
   Checkpoint c{.state = start, .position = {}};
-  c.has_end_pressure =
-      read(file, mesh, mesh_hash, c.state, remedy, [&](const nlohmann::json& header) { take_header(header, c, file.string()); });
+  c.has_end_pressure = read(file, mesh, mesh_hash, c.state, remedy,
+                            [&](const nlohmann::json& header) { take_header(header, c, file.string()); });
   return c;
 }
 

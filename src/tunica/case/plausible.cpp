@@ -19,7 +19,6 @@ namespace {
 
 namespace dimension = config::dimension;
 
-
 /// What tables of one kind usually reach, in SI units, and how that is said.
 struct Usual {
   const char* what;
@@ -30,12 +29,14 @@ struct Usual {
   const char *shown, *text;
 };
 
-constexpr Usual usual_flow{"flow", dimension::volume_flow,  0.01 * unit::ml_s, 1000 * unit::ml_s, 1 * unit::ml_s, unit::ml_s,
-                           "ml/s", "0.01 ml/s to 1000 ml/s"};
-constexpr Usual usual_pressure{"pressure", dimension::pressure, 1 * unit::mmHg, 400 * unit::mmHg, 40 * unit::mmHg, unit::mmHg,
-                               "mmHg",     "1 mmHg to 400 mmHg"};
+constexpr Usual usual_flow{
+    "flow", dimension::volume_flow,  0.01 * unit::ml_s, 1000 * unit::ml_s, 1 * unit::ml_s, unit::ml_s,
+    "ml/s", "0.01 ml/s to 1000 ml/s"};
+constexpr Usual usual_pressure{"pressure",      dimension::pressure, 1 * unit::mmHg, 400 * unit::mmHg,
+                               40 * unit::mmHg, unit::mmHg,          "mmHg",         "1 mmHg to 400 mmHg"};
 constexpr Usual usual_velocity{"velocity", dimension::velocity, 1e-5, 10, 0.01, 1, "m/s", "1e-5 m/s to 10 m/s"};
-constexpr Usual usual_traction{"traction", dimension::pressure, 0, 400 * unit::mmHg, 0, unit::mmHg, "mmHg", "up to 400 mmHg"};
+constexpr Usual usual_traction{"traction", dimension::pressure, 0,      400 * unit::mmHg,
+                               0,          unit::mmHg,          "mmHg", "up to 400 mmHg"};
 
 constexpr double shortest_period = 0.2, longest_period = 3;                  // s: 300 and 20 beats a minute
 constexpr double shortest_time_constant = 0.01, longest_time_constant = 30;  // s

@@ -77,7 +77,8 @@ std::vector<double> Projection::convection(const State& state, std::span<const d
     for (const auto& point : fe::quadratic_fourteen_points) {
       Vec3<double> along{}, sum{};
       for (int a = 0; a < element_nodes; ++a) along = along + point.N[a] * b[a];
-      for (int a = 0; a < element_nodes; ++a) sum = sum + dot(fe::quadratic_gradient(e.gradients, point, a), along) * v[a];
+      for (int a = 0; a < element_nodes; ++a)
+        sum = sum + dot(fe::quadratic_gradient(e.gradients, point, a), along) * v[a];
       for (int a = 0; a < element_nodes; ++a)
         for (int c = 0; c < 3; ++c) integral[at(e.nodes[a]) + c] += point.weight * e.volume * point.N[a] * sum[c];
     }

@@ -166,7 +166,7 @@ MeshData tube(const TubeSizes& z) {
   require_size(z.wall_thickness >= 0, "tube", "the wall thickness must not be negative");
   require_size(z.cells_around >= 4 && z.cells_around % 4 == 0, "tube", "cells_around must be a positive multiple of 4");
   require_size(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_through_wall >= 1, "tube",
-          "the numbers of cells must be at least 1");
+               "the numbers of cells must be at least 1");
   const auto objection = objection_to_counts(z);
   require_size(objection.empty(), "tube", objection.c_str());
   MeshData mesh;
@@ -189,10 +189,10 @@ MeshData tube(const TubeSizes& z) {
 
 MeshData thick_cylinder(const CylinderSizes& z, Sector sector) {
   require_size(z.inner > 0 && z.outer > z.inner && z.length > 0, "thick cylinder",
-          "the radii must satisfy 0 < inner < outer and the length must be positive");
+               "the radii must satisfy 0 < inner < outer and the length must be positive");
   const bool full = sector == Sector::full;
   require_size(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_around >= (full ? 3 : 1), "thick cylinder",
-          "the numbers of cells must be at least 1, around a full circle 3");
+               "the numbers of cells must be at least 1, around a full circle 3");
   MeshData mesh;
   auto section = annulus({z.inner, z.outer, 0, full ? 2 * pi : pi / 2, z.cells_radial, z.cells_around, full});
   if (!full)  // cos(pi / 2) is not exactly 0

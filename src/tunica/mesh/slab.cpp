@@ -129,10 +129,10 @@ void pair_twins(MeshData& mesh, Index lumen_nodes) {
 MeshData flag_behind_cylinder(const FlagSizes& z) {
   require_size(z.refinement >= 1 && z.layers >= 1, "flag", "the numbers of cells must be at least 1");
   require_size(z.depth > 0 && z.radius > 0 && z.flag_thickness > 0 && z.flag_thickness < 2 * z.radius, "flag",
-          "the sizes must be positive, and the flag thinner than the cylinder");
+               "the sizes must be positive, and the flag thinner than the cylinder");
   const double side = 2 * z.radius;
-  require_size(z.x - side > 0 && z.x + side < z.tip && z.tip < z.length && z.y - side > 0 && z.y + side < z.height, "flag",
-          "a square of twice the cylinder's diameter and the flag have to fit into the channel");
+  require_size(z.x - side > 0 && z.x + side < z.tip && z.tip < z.length && z.y - side > 0 && z.y + side < z.height,
+               "flag", "a square of twice the cylinder's diameter and the flag have to fit into the channel");
   const FlagGrid g = flag_grid(z);
   const auto radial = graded(0, 1, g.rings, 2.0);
   MeshData mesh;
@@ -147,7 +147,7 @@ MeshData flag_behind_cylinder(const FlagSizes& z) {
 
 MeshData backward_step(const StepSizes& z) {
   require_size(z.cells_across >= 2 && z.cells_across % 2 == 0 && z.cells_along >= 1, "step",
-          "the numbers of cells must be at least 1, and even across");
+               "the numbers of cells must be at least 1, and even across");
   require_size(z.length > 0 && z.height > 0 && z.depth > 0, "step", "the sizes must be positive");
   Blocks blocks;
   const double half = 0.5 * z.height;

@@ -11,8 +11,8 @@ namespace tunica::mesh_io {
 
 namespace {
 
-constexpr double smallest_extent = 2e-3, largest_extent = 20;               // m, of the diagonal
-constexpr double likely_smallest = 2e-2, likely_largest = 2;  // m
+constexpr double smallest_extent = 2e-3, largest_extent = 20;  // m, of the diagonal
+constexpr double likely_smallest = 2e-2, likely_largest = 2;   // m
 
 Vec3<double> box(std::span<const Vec3<double>> points) {
   if (points.empty()) return {{0, 0, 0}};

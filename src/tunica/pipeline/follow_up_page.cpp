@@ -18,7 +18,6 @@ namespace {
 namespace page = drawing::page;
 using unit::mm, unit::ml;
 
-
 std::string with_decimals(double value, int digits = 1) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "–";
 }
@@ -97,7 +96,8 @@ std::string segments_table(const FollowUpFindings& f) {
   for (const auto& s : f.growth.segments) {
     auto& row = rows.emplace_back(std::vector<std::string>{page::escaped(s.from), page::escaped(s.to)});
     for (std::size_t k = 0; k < f.scans.size(); ++k)
-      row.insert(row.end(), {with_decimals(s.length[k] / mm), with_decimals(s.volume[k][0] / ml), with_decimals(s.volume[k][1] / ml)});
+      row.insert(row.end(), {with_decimals(s.length[k] / mm), with_decimals(s.volume[k][0] / ml),
+                             with_decimals(s.volume[k][1] / ml)});
     for (std::size_t lumen = 0; lumen < 2; ++lumen)
       row.push_back(change((s.volume.back()[lumen] - s.volume.front()[lumen]) / ml / f.plan.scans.back().years));
   }

@@ -45,7 +45,8 @@ std::string text_of(const FollowUpPlan& plan, const ScanCase& scan) {
   const Document given(config::read_text(plan.file), plan.file.string());
   Document moved;
   moved.set("mesh.geometry", given.part(fmt::format("scans.{}.geometry", scan.name)));
-  config::move_paths(moved, *description_of<case_file::Case>(), absolute_path(plan.file).parent_path(), scan.file.parent_path());
+  config::move_paths(moved, *description_of<case_file::Case>(), absolute_path(plan.file).parent_path(),
+                     scan.file.parent_path());
   document.remove("mesh.geometry");
   document.set("mesh.geometry", moved.part("mesh.geometry"));
   const std::string title = document.text("title");
@@ -124,7 +125,8 @@ FollowUpPlan plan_follow_up(const fs::path& file, const std::optional<fs::path>&
   const int first_day = *case_file::day_of(plan.settings.scans.front().second.date);
   for (const auto& [name, scan] : plan.settings.scans) {
     const double years = (*case_file::day_of(scan.date) - first_day) / case_file::days_in_a_year;
-    ScanCase one{name, scan.date, years, scan.case_file ? absolute_path(*scan.case_file) : plan.output / name / "case.yaml"};
+    ScanCase one{name, scan.date, years,
+                 scan.case_file ? absolute_path(*scan.case_file) : plan.output / name / "case.yaml"};
     try {
       if (scan.geometry) one.text = text_of(plan, one);
       cases.push_back(read(one));

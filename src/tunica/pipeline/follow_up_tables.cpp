@@ -18,8 +18,8 @@ namespace tunica::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using unit::degree, unit::ml, unit::mm, unit::mm2;
 using nlohmann::ordered_json;
+using unit::degree, unit::ml, unit::mm, unit::mm2;
 
 double mmhg() { return config::unit_factor("mmHg", config::dimension::pressure); }
 

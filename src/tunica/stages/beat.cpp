@@ -35,7 +35,8 @@ using viewer::Skeleton;
 constexpr std::size_t most_sections = 12;
 
 Vec3<double> place_of(const nlohmann::json& centre_mm) {
-  return {{unit::mm * centre_mm.at(0).get<double>(), unit::mm * centre_mm.at(1).get<double>(), unit::mm * centre_mm.at(2).get<double>()}};
+  return {{unit::mm * centre_mm.at(0).get<double>(), unit::mm * centre_mm.at(1).get<double>(),
+           unit::mm * centre_mm.at(2).get<double>()}};
 }
 
 // --- planes and labels ----------------------------------------------------------------------------------------------

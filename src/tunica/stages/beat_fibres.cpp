@@ -56,8 +56,8 @@ std::vector<Spot> spots_of(const MeshData& data) {
     if (side == FibreSide::ring) continue;
     for (const auto& t : face.triangles) {
       const auto element = boundary.triangles()[static_cast<std::size_t>(boundary.find(t))].element;
-      spots.push_back({element, &viewer::region_of(data, element), side == FibreSide::inner, mesh::centroid(data.points, t),
-                       norm(mesh::area_vector(data.points, t))});
+      spots.push_back({element, &viewer::region_of(data, element), side == FibreSide::inner,
+                       mesh::centroid(data.points, t), norm(mesh::area_vector(data.points, t))});
     }
   }
   return spots;

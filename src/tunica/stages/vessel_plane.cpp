@@ -4,10 +4,7 @@
 
 namespace tunica::stages {
 
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 // By power iteration on the matrix that turns the order of the eigenvalues of the spread round.
 std::optional<VesselPlane> plane_of(const std::vector<Vec3<double>>& stations) {

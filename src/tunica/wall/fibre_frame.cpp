@@ -12,7 +12,6 @@ namespace {
 
 std::string text(const Vec3<double>& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0], v[1], v[2]); }
 
-
 }  // namespace
 
 FibreFrame orthonormal_frame(const Vec3<double>& e1, const Vec3<double>& e2, const std::string& where) {

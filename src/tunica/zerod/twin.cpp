@@ -256,8 +256,8 @@ class TotalsSearch {
         "({:.3g} of the whole) and from the vessel, between rigid walls from the inertia of the blood: raise "
         "`distal_share` or the pulse asked for;\n  one that is too "
         "small even without compliance in the outlets comes from the vessel's own: ask for less",
-        systolic_ / unit::mmHg, diastolic_ / unit::mmHg, reached_.systolic / unit::mmHg, reached_.diastolic / unit::mmHg,
-        1 - split_.distal_share);
+        systolic_ / unit::mmHg, diastolic_ / unit::mmHg, reached_.systolic / unit::mmHg,
+        reached_.diastolic / unit::mmHg, 1 - split_.distal_share);
   }
 
   const FlowSplit& split_;

@@ -67,7 +67,8 @@ void add_fluid(NaiveLinearSystem& system, const test::Fields& f, const std::arra
   }
   fe::ElementVector<double> r;
   fe::ElementMatrix<double> k;
-  fluid::tangent_beside_wall(state, fluid_time, test::blood(), fluid::Newtonian{4e-3}, motion_coefficients, moves, r, k);
+  fluid::tangent_beside_wall(state, fluid_time, test::blood(), fluid::Newtonian{4e-3}, motion_coefficients, moves, r,
+                             k);
   system.add(nodes, r, k);
 }
 

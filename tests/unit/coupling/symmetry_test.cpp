@@ -49,7 +49,8 @@ TEST(Symmetry, HalfAChannelFlowsAsTheWholeOne) {
     const double y = dot(mesh.points[i], e2) / height, x = dot(mesh.points[i], e1);
     const Vec3<double> expected = (1.5 * mean * (1 - y * y)) * e1;
     error = std::max(error, norm(vector_at(state.velocity_pressure.data(), i) - expected));
-    pressure_error = std::max(pressure_error, std::abs(state.velocity_pressure[at(i) + 3] - slope * (channel_length - x)));
+    pressure_error =
+        std::max(pressure_error, std::abs(state.velocity_pressure[at(i) + 3] - slope * (channel_length - x)));
   }
   // Measured 4e-6 to 8e-6 and 1.3e-5 to 2.5e-5: what the solver leaves, other on 1, 2 and 3 ranks.
   EXPECT_LE(parallel::global_max(MPI_COMM_WORLD, error), 2e-5 * mean);
@@ -67,7 +68,8 @@ TEST(Symmetry, ForceOnTheWallIsTheShear) {
   ASSERT_EQ(record.wall_forces.size(), 1u);
   EXPECT_EQ(record.wall_forces[0].name, "y_max");
   const auto [e1, e2, e3] = test::turned_axes();
-  const double shear = 3 * viscosity * mean / height * channel_length * depth, push = 0.5 * slope * channel_length * channel_length * depth;
+  const double shear = 3 * viscosity * mean / height * channel_length * depth,
+               push = 0.5 * slope * channel_length * channel_length * depth;
   const double inlet = slope * channel_length * height * depth / 24;
   EXPECT_NEAR(dot(record.wall_forces[0].force, e1), shear - inlet, 1e-4 * shear);
   EXPECT_NEAR(dot(record.wall_forces[0].force, e2), push, 1e-4 * push);

@@ -18,8 +18,8 @@ namespace tunica::files {
 namespace {
 
 namespace fs = std::filesystem;
-using tunica::test::contains;
 using test::slurp;
+using tunica::test::contains;
 
 std::string failure(const std::function<void()>& action) {
   try {
@@ -158,7 +158,8 @@ TEST(AtomicFile, ALibraryWritesUnderATemporaryName) {
 TEST(Append, AddsAWholeLineOrNone) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "a.csv";
-  EXPECT_TRUE(contains(failure([&] { append(path, "1\n"); }), "No such file")) << "a file that is gone is not begun anew";
+  EXPECT_TRUE(contains(failure([&] { append(path, "1\n"); }), "No such file"))
+      << "a file that is gone is not begun anew";
   write_atomically(path, "head\n");
   append(path, "1\n");
   const FileSizeLimit limit(10);

@@ -12,7 +12,8 @@
 namespace tunica::fluid {
 namespace {
 
-constexpr int cells = 3, nodes_along = cells + 1, all_nodes = nodes_along * nodes_along * nodes_along, unknowns = 4 * all_nodes;
+constexpr int cells = 3, nodes_along = cells + 1, all_nodes = nodes_along * nodes_along * nodes_along,
+              unknowns = 4 * all_nodes;
 constexpr double edge = 3e-3;
 
 int node(int i, int j, int k) { return (k * nodes_along + j) * nodes_along + i; }

@@ -32,7 +32,8 @@ double tangent_error(const ElementState<double>& state, const TimeCoefficients& 
                      const Law& law) {
   const Tau<double> tau = stabilisation(evaluate(state, law), time.dt, parameters);
   fe::ElementVector<InUnknowns> expected;
-  residual_with(evaluate(with_derivatives(state, time), law), test::frozen<InUnknowns>(tau), parameters.density, expected);
+  residual_with(evaluate(with_derivatives(state, time), law), test::frozen<InUnknowns>(tau), parameters.density,
+                expected);
   fe::ElementVector<double> r;
   fe::ElementMatrix<double> k;
   tangent(state, time, parameters, law, r, k);

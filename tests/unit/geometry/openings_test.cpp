@@ -20,7 +20,8 @@ TriangleSurface with_rim(TriangleSurface surface, const Height& height) {
 }
 
 TEST(Openings, FoundInPairsWithPlanes) {
-  const auto openings = find_openings(lumen_tube, &wall_tube, {{"top", {{0, 1e-3, 20e-3}}}, {"bottom", {{0, 0, -1e-3}}}});
+  const auto openings =
+      find_openings(lumen_tube, &wall_tube, {{"top", {{0, 1e-3, 20e-3}}}, {"bottom", {{0, 0, -1e-3}}}});
   ASSERT_EQ(openings.size(), 2u);
   EXPECT_EQ(openings[0].name, "top");
   EXPECT_NEAR(openings[0].normal[2], 1, 1e-12);
@@ -55,7 +56,8 @@ TEST(Openings, RefusesWhatDoesNotMatch) {
   auto shifted = wall_tube;
   for (auto& p : shifted.points) p[0] += 1.5e-3;
   EXPECT_TRUE(says(why(lumen_tube, shifted), "reaches beyond the rim"));
-  const auto ragged = with_rim(lumen_tube, [](const Point& p) { return 1.6e-3 * std::cos(2 * std::atan2(p[1], p[0])); });
+  const auto ragged =
+      with_rim(lumen_tube, [](const Point& p) { return 1.6e-3 * std::cos(2 * std::atan2(p[1], p[0])); });
   EXPECT_TRUE(says(why(ragged, wall_tube), "leave their common plane by 1.6"));
   EXPECT_TRUE(says(why(lumen_tube, wall_tube, {{"top", {{0, 0, 20e-3}}}}), "has no name"));
   EXPECT_TRUE(says(why(lumen_tube, wall_tube, {{"side", {{20e-3, 0, 10e-3}}}}), "there is no opening of its own"));

@@ -89,7 +89,8 @@ TEST_F(DamagedImage, SizesBelowTwoOrNoWholeNumbers) {
 TEST_F(DamagedImage, SizesLargerThanTheFileTakeNoMemory) {
   // Two gigabytes, as the header says.
   const std::string sizes = "1000 1000 2000";
-  refused("a.nrrd", nrrd(raw_header, eight, sizes), "holds 8 bytes of data, its size of 1000 x 1000 x 2000 voxels asks for");
+  refused("a.nrrd", nrrd(raw_header, eight, sizes),
+          "holds 8 bytes of data, its size of 1000 x 1000 x 2000 voxels asks for");
   refused("a.nrrd", nrrd("encoding: gzip\nspacings: 1 1 1", zipped(eight), sizes), "holds at most ");
   refused("a.nrrd", nrrd("encoding: ascii\nspacings: 1 1 1", "1 2 3", sizes), "holds at most 3 values as text");
   refused("a.mha", metaimage(spacing, eight, sizes), "holds 8 bytes of data");

@@ -105,7 +105,8 @@ TEST(FaultyLabels, AFlapIsInsertedWithTheTearsThatAreGiven) {
 
 TEST(FaultyLabels, AMissingSliceIsNamedOrFilled) {
   const auto image =
-      image_of([](const Point& p) { return std::abs(p[2] - 0.35 * mm) < 0.3 * mm ? 0 : dissected_tube(p); }, image_size, straight);
+      image_of([](const Point& p) { return std::abs(p[2] - 0.35 * mm) < 0.3 * mm ? 0 : dissected_tube(p); }, image_size,
+               straight);
   auto asked = settings();
   EXPECT_TRUE(contains(make(image, asked).error, "slice 31 along axis 3")) << make(image, asked).error;
   asked.repairs.asked[static_cast<std::size_t>(Repair::slices)] = true;
@@ -115,7 +116,8 @@ TEST(FaultyLabels, AMissingSliceIsNamedOrFilled) {
 
 TEST(FaultyLabels, ALabelThatNothingNamesIsAnError) {
   const auto image =
-      image_of([](const Point& p) { return p[2] > 5 * mm && dissected_tube(p) == 2 ? 5 : dissected_tube(p); }, image_size, straight);
+      image_of([](const Point& p) { return p[2] > 5 * mm && dissected_tube(p) == 2 ? 5 : dissected_tube(p); },
+               image_size, straight);
   auto asked = settings();
   EXPECT_TRUE(contains(make(image, asked).error, "nothing says what they are")) << make(image, asked).error;
   asked.labels.tissue = {5};
@@ -135,7 +137,9 @@ double volume(geometry::TriangleSurface surface) {
 }
 
 TEST(FaultyLabels, ThrombusIsNoLumenButLiesWithinTheWall) {
-  const auto clotted = [](const Point& p) { return dissected_tube(p) == 2 && p[0] < -3.5 * mm ? 3 : dissected_tube(p); };
+  const auto clotted = [](const Point& p) {
+    return dissected_tube(p) == 2 && p[0] < -3.5 * mm ? 3 : dissected_tube(p);
+  };
   const auto image = image_of(clotted, image_size, straight);
   auto asked = settings();
   EXPECT_TRUE(contains(make(image, asked).error, "give `thrombus: 3` for clotted blood"));

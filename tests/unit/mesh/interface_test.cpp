@@ -12,8 +12,8 @@ namespace tunica::mesh {
 
 namespace {
 
-using tunica::test::contains;
 using test::message_of;
+using tunica::test::contains;
 
 /// Two boxes that touch at x = 1: the lumen fills [0, 1] and the wall [1, 1.5].
 struct Boxes {

@@ -14,9 +14,9 @@ namespace tunica::mesh_io {
 
 namespace {
 
-using tunica::test::contains;
 using test::message_of;
 using test::TemporaryFolder;
+using tunica::test::contains;
 
 enum class Encoding { ascii, binary, swapped };
 

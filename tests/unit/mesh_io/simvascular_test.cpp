@@ -18,9 +18,9 @@ namespace tunica::mesh_io {
 
 namespace {
 
-using tunica::test::contains;
 using test::message_of;
 using test::TemporaryFolder;
+using tunica::test::contains;
 namespace fs = std::filesystem;
 
 /// How the written files deviate from a sound mesh.

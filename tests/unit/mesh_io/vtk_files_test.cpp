@@ -26,10 +26,10 @@ namespace tunica::mesh_io {
 namespace {
 
 namespace fs = std::filesystem;
-using tunica::test::contains;
 using test::message_of;
 using test::slurp;
 using test::TemporaryFolder;
+using tunica::test::contains;
 
 enum class Data { ascii, binary, appended_raw, appended_base64 };
 enum class Packing { none, zlib, lz4, lzma };

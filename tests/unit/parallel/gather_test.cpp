@@ -37,7 +37,8 @@ TEST(Gather, ScatterIsItsInverse) {
   const auto ids = my_ids();
   std::vector<double> field;
   if (rank(MPI_COMM_WORLD) == 0)
-    for (std::int64_t i = 0; i < global_nodes * components_of_a_node; ++i) field.push_back(0.1 * static_cast<double>(i * i));
+    for (std::int64_t i = 0; i < global_nodes * components_of_a_node; ++i)
+      field.push_back(0.1 * static_cast<double>(i * i));
   std::vector<double> values(ids.size() * components_of_a_node + 6, -1);
   scatter_by_original_id({MPI_COMM_WORLD, ids, global_nodes}, field, values, components_of_a_node);
   for (std::size_t n = 0; n < ids.size(); ++n)

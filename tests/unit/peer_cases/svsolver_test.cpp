@@ -76,14 +76,15 @@ TEST_F(SvSolver, ReadsASimulationOfAProject) {
   EXPECT_TRUE(states(yaml, "volume: mesh-complete/mesh-complete.mesh.vtu\n"));
   EXPECT_TRUE(states(yaml, "walls_combined: mesh-complete/walls_combined.vtp\n"));
   EXPECT_TRUE(states(yaml, "density: 1.06 g/cm^3\n"));
-  EXPECT_TRUE(states(yaml, "inflow:\n    flow:\n      table:\n        file: inflow.flow\n        format: simvascular\n"));
+  EXPECT_TRUE(
+      states(yaml, "inflow:\n    flow:\n      table:\n        file: inflow.flow\n        format: simvascular\n"));
   EXPECT_TRUE(states(yaml, "interpolation: fourier\n        period: 1.1 s\n        modes: 10\n"));
   EXPECT_TRUE(states(yaml, "profile: parabolic\n"));
   EXPECT_TRUE(states(yaml, "left:\n    resistance:\n      resistance: 1500 dyn s/cm^5\n"));
   EXPECT_TRUE(states(yaml,
-                  "right:\n    rcr:\n      proximal: 121 dyn s/cm^5\n      capacitance: 1.5e-5 cm^5/dyn\n"
-                  "      distal: 1212 dyn s/cm^5\n      distal_pressure: 7 dyn/cm^2\n"
-                  "      initial_pressure: 80 dyn/cm^2\n"));
+                     "right:\n    rcr:\n      proximal: 121 dyn s/cm^5\n      capacitance: 1.5e-5 cm^5/dyn\n"
+                     "      distal: 1212 dyn s/cm^5\n      distal_pressure: 7 dyn/cm^2\n"
+                     "      initial_pressure: 80 dyn/cm^2\n"));
   EXPECT_TRUE(states(yaml, "walls_combined:\n    no_slip: {}\n"));
   EXPECT_TRUE(states(yaml, "step: 0.001 s\n  steps: 200\n"));
   EXPECT_TRUE(states(yaml, "every: 10\n"));

@@ -19,9 +19,9 @@ Parameters read_parameters(const std::string& rest) {
 const std::string stiff = "{neo_hooke: {young_modulus: 800 kPa, poisson_ratio: 0.49}}";
 
 TEST(Composition, IsReadWithTheWallAndItsRegions) {
-  const auto p =
-      read_parameters("smoothing_length: 1 mm\nlayers: {depth: depth, outwards: [{beyond: 0.6, material: " + stiff +
-           "}]}\nregions: {flap: {material: " + stiff + ", admixture: {share: calcified, material: " + stiff + "}}}\n");
+  const auto p = read_parameters(
+      "smoothing_length: 1 mm\nlayers: {depth: depth, outwards: [{beyond: 0.6, material: " + stiff +
+      "}]}\nregions: {flap: {material: " + stiff + ", admixture: {share: calcified, material: " + stiff + "}}}\n");
   EXPECT_EQ(p.cell_arrays(), (std::vector<std::string>{"depth", "calcified"}));
   EXPECT_EQ(p.composition.further().size(), 1u);
   EXPECT_NEAR(matrix_shear_modulus(*p.regions.at("flap").composition.further()[0]), 800e3 / 2.98, 1.0);
@@ -29,7 +29,7 @@ TEST(Composition, IsReadWithTheWallAndItsRegions) {
 
 TEST(Composition, JumpsWithoutBlending) {
   const auto p = read_parameters("layers: {depth: depth, outwards: [{beyond: 0.2, material: " + stiff +
-                      "}, {beyond: 0.6, material: " + stiff + "}]}\n");
+                                 "}, {beyond: 0.6, material: " + stiff + "}]}\n");
   EXPECT_EQ(p.composition.layers->weights(-0.1), (std::vector<double>{1, 0, 0}));
   EXPECT_EQ(p.composition.layers->weights(0.4), (std::vector<double>{0, 1, 0}));
   EXPECT_EQ(p.composition.layers->weights(1.2), (std::vector<double>{0, 0, 1}));

@@ -40,7 +40,8 @@ TEST(MaterialPaths, ClosedFormsOfNeoHooke) {
   const double mu = 50e3, l = 1.3;
   const Law law = neo_hooke();
   const PathPoint start = rest(law, no_change_of_volume);
-  EXPECT_NEAR(stretched(law, no_change_of_volume, along_e1, {l, {}}, start).state.cauchy[0], mu * (l * l - 1.0 / l), 1e-6);
+  EXPECT_NEAR(stretched(law, no_change_of_volume, along_e1, {l, {}}, start).state.cauchy[0], mu * (l * l - 1.0 / l),
+              1e-6);
   const PathPoint equal = stretched(law, no_change_of_volume, along_e1, {l, l}, start);
   EXPECT_NEAR(equal.state.cauchy[0], mu * (l * l - std::pow(l, -4)), 1e-6);
   EXPECT_NEAR(equal.state.cauchy[1], equal.state.cauchy[0], 1e-6);

@@ -34,7 +34,8 @@ SurfaceState<InMotions> shifted(const SurfaceState<double>& s, double du_dx, dou
   return r;
 }
 
-void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k, const SurfaceVector<InMotions>& exact) {
+void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k,
+                  const SurfaceVector<InMotions>& exact) {
   for (int a = 0; a < 6; ++a)
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(r.r[a][i], exact.r[a][i].value, 1e-14);
@@ -62,7 +63,9 @@ TEST(QuadraticWallSurface, TissueSupportTangent) {
     SurfaceMatrix<double> k{};
     SurfaceVector<InMotions> exact{};
     add_support(s, TissueSupport<double>{3.0, 0.8, 1.5, normal_only}, 0.4, 1.3, r, &k);
-    add_support(shifted(s, 0.4, 1.3), TissueSupport<InMotions>{InMotions(3.0), InMotions(0.8), InMotions(1.5), normal_only}, 0.0, 0.0, exact, nullptr);
+    add_support(shifted(s, 0.4, 1.3),
+                TissueSupport<InMotions>{InMotions(3.0), InMotions(0.8), InMotions(1.5), normal_only}, 0.0, 0.0, exact,
+                nullptr);
     expect_equal(r, k, exact);
   }
 }

@@ -34,7 +34,8 @@ SupportState<InMotions> shifted(const SupportState<double>& s, double du_dx, dou
   return r;
 }
 
-void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k, const SurfaceVector<InMotions>& exact) {
+void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k,
+                  const SurfaceVector<InMotions>& exact) {
   for (int a = 0; a < 3; ++a)
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(r.r[a][i], exact.r[a][i].value, 1e-14);
@@ -68,7 +69,8 @@ TEST(WallSurface, TissueSupportTangent) {
     SurfaceVector<InMotions> exact{};
     add_support(s, TissueSupport<double>{3.0, 0.8, 1.5, normal_only}, r);
     add_support_tangent(s, TissueSupport<double>{3.0, 0.8, 1.5, normal_only}, 0.4, 1.3, k);
-    add_support(shifted(s, 0.4, 1.3), TissueSupport<InMotions>{InMotions(3.0), InMotions(0.8), InMotions(1.5), normal_only}, exact);
+    add_support(shifted(s, 0.4, 1.3),
+                TissueSupport<InMotions>{InMotions(3.0), InMotions(0.8), InMotions(1.5), normal_only}, exact);
     expect_equal(r, k, exact);
   }
 }

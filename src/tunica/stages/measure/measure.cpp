@@ -132,7 +132,8 @@ std::string table_of(const std::vector<flow::FlowCurve>& curves, const std::vect
   text += "\n";
   for (std::size_t k = 0; k < times.size(); ++k) {
     text += fmt::format("{:.9g}", times[k]);
-    for (const auto& c : curves) text += fmt::format(",{:.7g},{:.4g}", c.flow[k] / unit::ml, c.deviation_at(k) / unit::ml);
+    for (const auto& c : curves)
+      text += fmt::format(",{:.7g},{:.4g}", c.flow[k] / unit::ml, c.deviation_at(k) / unit::ml);
     text += "\n";
   }
   return text;
@@ -196,7 +197,8 @@ flow::NodalCourse fitted_profile(const MeasureCase& c, const VesselOfCase& vesse
   const auto length = c.profile->smoothing ? c.profile->smoothing : c.smoothing;
   const flow::ProfileFit fit(p.series, p.lumen, section, p.noise,
                              {.length = length.value_or(radius), .slab = c.profile->slab, .at_end = true});
-  say(fmt::format("profile of {}: {} voxels, smoothed over {:.3g} mm", opening.name, fit.voxels(), fit.length() / unit::mm));
+  say(fmt::format("profile of {}: {} voxels, smoothed over {:.3g} mm", opening.name, fit.voxels(),
+                  fit.length() / unit::mm));
   std::vector<double> outflow;
   const double sign = opening.name == vessel.inlet ? -1 : 1;
   for (std::size_t k = 0; k < p.series.frames(); ++k)

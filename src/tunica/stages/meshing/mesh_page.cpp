@@ -15,7 +15,6 @@ namespace tunica::stages {
 
 namespace {
 
-
 constexpr drawing::Colour true_lumen{246, 200, 196}, false_lumen{196, 214, 240};
 /// In the order of `WallRegion`.
 constexpr std::array<drawing::Colour, 4> region_colours = {
@@ -209,7 +208,9 @@ std::string histogram(const nlohmann::json& counts, double bin, const std::strin
       {bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
 }
 
-std::string number(const nlohmann::json& value, int digits) { return fmt::format("{:.{}f}", value.get<double>(), digits); }
+std::string number(const nlohmann::json& value, int digits) {
+  return fmt::format("{:.{}f}", value.get<double>(), digits);
+}
 
 std::string tables(const nlohmann::json& r) {
   std::string text = "<h2>Regions in numbers</h2>\n<table>\n" +

@@ -21,7 +21,6 @@ Vec3<double> vector_of(const json& list) {
   return {{list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}};
 }
 
-
 /// The few extreme values at edges would make one colour of all the others.
 constexpr double shown = 99;
 

@@ -42,7 +42,8 @@ double integral(const Density& d, const Triangle& t) {
 /// At a corner in e3 a split into four leaves a triangle of the same angle, in which a bivariate density varies as
 /// before. This one halves the angle too.
 std::array<Triangle, 6> split_at_pole(const Triangle& t) {
-  const Direction AB = normalised(t.A + t.B), A = normalised(t.A + t.C), M = normalised(AB + t.C), B = normalised(t.B + t.C);
+  const Direction AB = normalised(t.A + t.B), A = normalised(t.A + t.C), M = normalised(AB + t.C),
+                  B = normalised(t.B + t.C);
   return {{{A, M, t.C}, {M, B, t.C}, {t.A, AB, A}, {AB, M, A}, {AB, t.B, M}, {t.B, B, M}}};
 }
 
