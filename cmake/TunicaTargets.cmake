@@ -15,7 +15,7 @@ if(TUNICA_CCACHE)
 endif()
 
 # Unity builds (CMAKE_UNITY_BUILD, on in the presets; CONTRIBUTING.md, "Compile time"): eight sources of a target at a
-# time are one to the compiler, which then reads their headers once.
+# time, 16 in the presets of scripts/test, are one to the compiler, which then reads their headers once.
 if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 endif()
