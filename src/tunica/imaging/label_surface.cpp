@@ -12,6 +12,7 @@
 #include "tunica/imaging/resampling.hpp"
 #include "tunica/imaging/smooth_field.hpp"
 #include "tunica/imaging/surface_smoothing.hpp"
+#include "tunica/imaging/tear_size.hpp"
 #include "tunica/mesh/names.hpp"
 
 namespace tunica::imaging {
@@ -225,6 +226,17 @@ SmoothField lumen_field(const LumenMask& mask, const SurfaceSettings& settings, 
   return field;
 }
 
+/// The areas that the labels have: in voxels that were divided the edges of a thin flap have drawn back.
+void take_areas(const std::vector<Contact>& contacts, std::vector<Contact>& tears) {
+  for (auto& tear : tears) {
+    const double radius = std::sqrt(tear.area / M_PI);
+    double sum = 0;
+    for (const auto& contact : contacts)
+      if (norm(contact.centre - tear.centre) < radius) sum += contact.area;
+    if (sum > 0) tear.area = sum;
+  }
+}
+
 }  // namespace
 
 config::Schema<ImageOpening> ImageOpening::schema() {
@@ -304,13 +316,15 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   LabelSurface result;
   result.parts = settings.flap.insert && settings.flap.tears.empty() ? 2 : 1;
   const double filter = filter_width(image.frame, settings);
-  auto mask = with_even_voxels(
-      lumen_mask(image, settings.labels, margin_for(image.frame), log, settings.repairs, result.parts == 2));
+  auto mask = lumen_mask(image, settings.labels, margin_for(image.frame), log, settings.repairs, result.parts == 2);
+  const auto contacts = dissected ? find_contacts(mask, 0) : std::vector<Contact>();
+  mask = with_even_voxels(std::move(mask));
   const double voxel = mask.frame.largest_spacing();
   if (voxel < 0.99 * image.frame.largest_spacing())
     log(fmt::format("voxels of {:.2f} mm by shape-based interpolation", 1e3 * voxel));
   const double sigma = filter / smallest_spacing(mask.frame);
   if (dissected) result.tears = find_tears(mask, settings.flap, settings.tears, log);
+  if (!settings.flap.insert) take_areas(contacts, result.tears);
   const auto rings = open_bridges(mask, dissected, settings.tears.at_least(), settings.repairs[Repair::bridges], log);
   result.ends = choose_ends(mask, smooth_field(mask, sigma), settings, log);
   check_border(mask, result.ends);
@@ -319,6 +333,7 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   drop_beyond_ends(mask);
   auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, log)), result.parts);
   take_noise(surface, voxel, log);
+  if (!result.tears.empty()) narrow_tears(mask, result.tears, surface, log);
   result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
   result.of_false_lumen = points_at(Kind::false_lumen, mask, result.lumen);
   log_shape(result, log);

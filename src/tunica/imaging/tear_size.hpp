@@ -1,0 +1,14 @@
+// The size of tears in a surface, which filters make larger than the labels have them.
+#pragma once
+
+#include "tunica/imaging/flap.hpp"
+
+namespace tunica::imaging {
+
+/// Gives the tears of a closed surface the areas of the contacts: filters draw back the edges of the flap, by more the
+/// rougher the labels are. Space is drawn together about the middle of each tear, by less the farther from it, and not
+/// at all beyond some millimetres; so nothing can cross and no tear can close. Lists both areas in the log.
+void narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears, geometry::TriangleSurface& surface,
+                  const Log& log);
+
+}  // namespace tunica::imaging
