@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "exit_codes.hpp"
 #include "output.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/nearest.hpp"
@@ -17,7 +18,7 @@
 
 namespace {
 
-constexpr int input_error = 2, solver_failure = 3;
+using tunica::app::input_error, tunica::app::solver_failure;
 
 int fail(int code, const char* error) {
   std::fprintf(stderr, "tunica: %s\n", error);

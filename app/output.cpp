@@ -10,12 +10,11 @@
 #include <iterator>
 #include <string>
 
+#include "exit_codes.hpp"
 #include "tunica/base/error.hpp"
 
 namespace tunica::app {
 namespace {
-
-constexpr int solver_failure = 3;
 
 /// Commands whose result is their standard output.
 constexpr const char* printing[] = {"completion", "manual", "schema"};

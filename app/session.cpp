@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "exit_codes.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/launcher.hpp"
@@ -14,8 +15,6 @@
 
 namespace tunica::app {
 namespace {
-
-constexpr int input_error = 2, solver_failure = 3;
 
 int report(int code, const std::exception& error) {
   if (parallel::rank(MPI_COMM_WORLD) == 0) {

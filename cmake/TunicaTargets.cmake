@@ -14,11 +14,25 @@ if(TUNICA_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${TUNICA_CCACHE})
 endif()
 
+# Unity builds (CMAKE_UNITY_BUILD, on in the presets; CONTRIBUTING.md, "Compile time"): eight sources of a target at a
+# time, 16 in the presets of scripts/test, are one to the compiler, which then reads their headers once.
+if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+endif()
+
+# Sources that are compiled each for itself even so; those with compile options of their own are in any case.
+function(tunica_apart)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 add_library(tunica_flags INTERFACE)
 set_target_properties(tunica_flags PROPERTIES EXPORT_NAME flags)
 # -Wno-psabi: packs are wider than the baseline registers; they never cross a library boundary by value.
 # -ffp-contract=fast is g++'s default and kept: results are compared with tolerances, not bit by bit across ISAs.
-target_compile_options(tunica_flags INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow> -Wno-psabi)
+target_compile_options(tunica_flags INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic> -Wno-psabi)
+# Tests that share a unit may call a variable as another test calls a constant.
+target_compile_options(tunica_flags INTERFACE
+  $<BUILD_INTERFACE:$<IF:$<BOOL:$<TARGET_PROPERTY:TUNICA_SHARED_UNIT>>,-Wshadow=local,-Wshadow>>)
 # Without semantic interposition the compiler inlines our own functions into each other in shared libraries, too.
 target_compile_options(tunica_flags INTERFACE
   $<BUILD_INTERFACE:$<$<BOOL:$<TARGET_PROPERTY:POSITION_INDEPENDENT_CODE>>:-fno-semantic-interposition>>)
@@ -50,6 +64,8 @@ function(tunica_instruction_sets)
     elseif(source MATCHES "_avx512\\.cpp$")
       set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
         "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-mprefer-vector-width=512;-Wno-uninitialized;-Wno-maybe-uninitialized")  # g++ 12 warns of its own header
+    elseif(source MATCHES "_sse2\\.cpp$")
+      tunica_apart(${source})  # half a minute each
     endif()
   endforeach()
 endfunction()
@@ -102,4 +118,5 @@ function(tunica_embed target namespace)
     COMMAND ${CMAKE_COMMAND} -DTOOL=$<TARGET_FILE:tunica_embedder> -DOUT=${source} -DNAMESPACE=${namespace}
       "-DFILES=${entries}" -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
   target_sources(${target} PRIVATE ${source})
+  tunica_apart(${source})
 endfunction()

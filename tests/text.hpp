@@ -13,6 +13,8 @@ inline std::string slurp(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 /// The message of the Error that `action` throws, empty when it throws none.
 template <class Error, class Action>
 std::string message_of(const Action& action) {

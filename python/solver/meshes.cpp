@@ -44,7 +44,7 @@ const mesh::FaceData& face_of(const CheckedMesh& checked, const std::string& nam
 }
 
 /// Name, kind, and the range of its elements.
-py::list regions(const CheckedMesh& checked) {
+py::list mesh_regions(const CheckedMesh& checked) {
   py::list list;
   for (const auto& r : checked.data.regions)
     list.append(
@@ -96,7 +96,7 @@ void bind_meshes(py::module_& m) {
       .def_property_readonly(
           "elements",
           [](const py::object& self) { return rows<std::int64_t>(self.cast<CheckedMesh&>().data.tetrahedra, self); })
-      .def_property_readonly("regions", regions)
+      .def_property_readonly("regions", mesh_regions)
       .def_property_readonly("faces",
                              [](const CheckedMesh& c) {
                                std::vector<std::string> names;

@@ -1,9 +1,9 @@
 // Reads damaged files of a corpus: fuzz_<target> CORPUS [--runs N] [--seed S] [--first N] [--keep FOLDER]
 //
 // Every input is read in a child process, thousands in one. An input fails that ends the child (a signal, a report of a
-// sanitizer, exit()), throws anything else than InputError or SolverError, takes longer than `longest` or memory beyond
-// `most_memory`. It is kept (in tunica_fuzz of the folder for temporary files, unless FOLDER is named), the child is
-// started again behind it, and the exit code is 1 in the end.
+// sanitizer, exit()), throws anything else than InputError or SolverError, takes longer than `longest_read` or memory
+// beyond `most_memory`. It is kept (in tunica_fuzz of the folder for temporary files, unless FOLDER is named), the
+// child is started again behind it, and the exit code is 1 in the end.
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -50,7 +50,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int longest = 10;               // s, of one input; a sanitizer takes its share
+constexpr int longest_read = 10;          // s, of one input; a sanitizer takes its share
 constexpr long most_memory = 512 * 1024;  // KiB that one input may add
 constexpr int most_failures = 10;
 
@@ -172,7 +172,7 @@ void set_timer(int seconds) {
     write(file, in.bytes);
     const long memory = peak_memory();
     const auto start = Clock::now();
-    set_timer(longest);
+    set_timer(longest_read);
     const auto refused = refusal(file, in.kind, progress);
     set_timer(0);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -189,7 +189,8 @@ void set_timer(int seconds) {
 }
 
 std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return "takes longer than " + std::to_string(longest) + " s";
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+    return "takes longer than " + std::to_string(longest_read) + " s";
   if (WIFSIGNALED(status)) return std::string("ended by a signal: ") + strsignal(WTERMSIG(status));
   return "ended with exit code " + std::to_string(WEXITSTATUS(status)) + ", see the report above";
 }

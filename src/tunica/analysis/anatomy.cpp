@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "tunica/base/limits.hpp"
 #include "tunica/mesh/boundary.hpp"
 
 namespace tunica::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 /// What bends on shorter lengths is taken for noise of the centroids, as at the mouths of branches.
 constexpr double line_smoothing = 60e-3;
 
@@ -24,8 +25,6 @@ struct FlatPolygon {
 };
 
 double direction(int k) { return 2 * M_PI * k / section_directions; }
-
-std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 
 // --- the mesh along the line ----------------------------------------------------------------------------------------
 

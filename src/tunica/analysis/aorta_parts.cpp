@@ -13,8 +13,6 @@ namespace {
 
 using Nodes = std::vector<std::int64_t>;
 
-std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
-
 /// Elements of the lumen that a section cuts.
 std::vector<std::uint8_t> cut_elements(const mesh::MeshData& data, const Vessel& vessel) {
   std::set<Element> cut;

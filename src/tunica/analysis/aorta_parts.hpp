@@ -8,6 +8,9 @@
 
 namespace tunica::analysis {
 
+/// The number of a node or an element as a place in an array.
+inline std::size_t at(std::int64_t number) { return static_cast<std::size_t>(number); }
+
 /// A branch where it leaves the aorta.
 struct BranchOrigin {
   std::string opening;             ///< face of the lumen at its end

@@ -18,8 +18,6 @@ namespace {
 
 constexpr double most_filled = 0.01;  ///< of the lumen
 
-std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
-
 class Change {
  public:
   Change(const mesh::MeshData& data, const Anatomy& anatomy, const AnatomyChange& change, const std::string& lumen_face,

@@ -28,21 +28,6 @@ using mesh::RegionKind;
 
 constexpr const char* run_again = "run the case again, with fields written (`output.every`)";
 
-using Place = std::array<float, 3>;
-struct PlaceHash {
-  std::size_t operator()(const Place& p) const {
-    std::size_t h = 0;
-    for (const float x : p) {
-      std::uint32_t bits;
-      const float clean = x + 0.0F;  // -0 and 0 are one place
-      std::memcpy(&bits, &clean, sizeof bits);
-      h = (h ^ bits) * 0x9E3779B97F4A7C15ULL;
-      h ^= h >> 29;
-    }
-    return h;
-  }
-};
-
 std::array<std::int64_t, 4> sorted(std::array<std::int64_t, 4> nodes) {
   std::sort(nodes.begin(), nodes.end());
   return nodes;
@@ -56,15 +41,30 @@ std::string printable_names(const std::vector<field_io::ArrayHead>& arrays) {
   return names;
 }
 
-/// Points of the files by the nodes of a region, and their cells by the elements.
-struct Numbering {
-  std::vector<std::int64_t> nodes, elements;  ///< of MeshData, by point, and by cell and its part
-  std::size_t parts = 1;                      ///< elements of MeshData in a cell: 8 where a quadratic one is subdivided
-};
-
 }  // namespace
 
 struct FieldSeries::Implementation {
+  using Place = std::array<float, 3>;
+  struct PlaceHash {
+    std::size_t operator()(const Place& p) const {
+      std::size_t h = 0;
+      for (const float x : p) {
+        std::uint32_t bits;
+        const float clean = x + 0.0F;  // -0 and 0 are one place
+        std::memcpy(&bits, &clean, sizeof bits);
+        h = (h ^ bits) * 0x9E3779B97F4A7C15ULL;
+        h ^= h >> 29;
+      }
+      return h;
+    }
+  };
+
+  /// Points of the files by the nodes of a region, and their cells by the elements.
+  struct Numbering {
+    std::vector<std::int64_t> nodes, elements;  ///< of MeshData, by point, and by cell and its part
+    std::size_t parts = 1;  ///< elements of MeshData in a cell: 8 where a quadratic one is subdivided
+  };
+
   const RunDescription description;
   const mesh::MeshData& data;
   fs::path folder;

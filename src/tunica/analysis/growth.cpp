@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "tunica/base/limits.hpp"
+
 namespace tunica::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 constexpr double same_tear = 25e-3;  ///< within which tears of two dates are one [m]
 
 using Scans = std::vector<const Anatomy*>;

@@ -8,11 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tunica/base/limits.hpp"
+
 namespace tunica::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 /// From 1; equal values share the mean of their ranks.
 std::vector<double> ranks(const std::vector<double>& values) {

@@ -19,14 +19,13 @@
 namespace tunica::artifacts {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
 // magic | version | length of the header | header (JSON) | fields | hash of header and fields. Little endian.
 constexpr char magic[8] = {'t', 'u', 'n', 'i', 'c', 'a', 'C', 'P'};
 // Version 1 has no end pressures.
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t newest_version = 2;
 constexpr std::uint64_t longest_header = 1 << 24;
 
 struct NodalField {
@@ -55,8 +54,8 @@ parallel::NodeOrder node_order(const distributed::DistributedMesh& mesh) {
   return {mesh.comm, std::span(mesh.original_ids).first(static_cast<std::size_t>(mesh.owned_nodes)), mesh.global_nodes};
 }
 
-json header_of(const Checkpoint& c, std::int64_t nodes) {
-  json outlets = json::array();
+nlohmann::json header_of(const Checkpoint& c, std::int64_t nodes) {
+  nlohmann::json outlets = nlohmann::json::array();
   for (const auto& outlet : c.state.outlets)
     outlets.push_back({{"face", outlet.face()}, {"state", outlet.state()}, {"pressure", outlet.pressure()}});
   const auto& p = c.position;
@@ -78,7 +77,7 @@ json header_of(const Checkpoint& c, std::int64_t nodes) {
             {"level", p.level}}}};
 }
 
-void restore_outlets(const json& saved, std::vector<bc::Outlet>& outlets, const std::string& where) {
+void restore_outlets(const nlohmann::json& saved, std::vector<bc::Outlet>& outlets, const std::string& where) {
   if (saved.size() != outlets.size())
     throw InputError(where, fmt::format("has {} outlets, the case has {}", saved.size(), outlets.size()),
                      "restart with the case that wrote the checkpoint");
@@ -92,7 +91,7 @@ void restore_outlets(const json& saved, std::vector<bc::Outlet>& outlets, const 
   }
 }
 
-void take_header(const json& h, Checkpoint& c, const std::string& where) {
+void take_header(const nlohmann::json& h, Checkpoint& c, const std::string& where) {
   c.case_hash = h.at("case_hash");
   c.mesh_hash = h.at("mesh_hash");
   c.state.step = h.at("step");
@@ -100,7 +99,7 @@ void take_header(const json& h, Checkpoint& c, const std::string& where) {
   c.state.dt = h.at("dt");
   c.state.residual_reference = h.at("residual_reference");
   c.state.velocity_reference = h.value("velocity_reference", 0.0);  // older ones had no adaptive steps
-  const json& g = h.at("grid");
+  const nlohmann::json& g = h.at("grid");
   c.position = {g.at("base_time"), g.at("base_step"), g.at("nominal"), g.at("done"), g.at("part"), g.at("level")};
   restore_outlets(h.at("outlets"), c.state.outlets, where);
 }
@@ -126,9 +125,9 @@ class Reader {
     read(found, sizeof found);
     if (std::memcmp(found, magic, sizeof magic) != 0) damaged(file_, "is no tunica checkpoint");
     read(&version_, sizeof version_);
-    if (version_ < 1 || version_ > version)
-      damaged(file_,
-              fmt::format("has format version {}, this tunica reads version {} and earlier ones", version_, version));
+    if (version_ < 1 || version_ > newest_version)
+      damaged(file_, fmt::format("has format version {}, this tunica reads version {} and earlier ones", version_,
+                                 newest_version));
     read(&length, sizeof length);
     if (length > longest_header) damaged(file_, "the checkpoint is damaged");
     std::string text(length, '\0');
@@ -163,7 +162,7 @@ class Writer {
   void header(const std::string& text) {
     const std::uint64_t length = text.size();
     write(magic, sizeof magic);
-    write(&version, sizeof version);
+    write(&newest_version, sizeof newest_version);
     write(&length, sizeof length);
     write(text.data(), text.size());
   }
@@ -188,7 +187,7 @@ void write_checkpoint(const fs::path& file, const distributed::DistributedMesh& 
     writer.emplace(file);
     writer->header(header_of(checkpoint, mesh.global_nodes).dump());
   });
-  for (const auto& field : nodal_fields(version)) {
+  for (const auto& field : nodal_fields(newest_version)) {
     const auto values =
         parallel::gather_by_original_id(node_order(mesh), checkpoint.state.*field.values, field.components);
     parallel::on_root(mesh.comm, [&] { writer->write(values.data(), values.size() * sizeof(double)); });
@@ -200,7 +199,7 @@ void write_start(const fs::path& file, const coupling::State& state, std::uint64
   Checkpoint checkpoint{.state = state, .position = {}, .mesh_hash = mesh_hash};
   Writer writer(file);
   writer.header(header_of(checkpoint, std::ssize(state.end_pressure)).dump());
-  for (const auto& field : nodal_fields(version)) {
+  for (const auto& field : nodal_fields(newest_version)) {
     const auto& values = state.*field.values;
     writer.write(values.data(), values.size() * sizeof(double));
   }
@@ -210,7 +209,7 @@ void write_start(const fs::path& file, const coupling::State& state, std::uint64
 std::string damage_of(const fs::path& file) {
   try {
     Reader reader(file);
-    const json header = json::parse(reader.header(), nullptr, false);
+    const nlohmann::json header = nlohmann::json::parse(reader.header(), nullptr, false);
     if (header.is_discarded() || !header.is_object() || !header.contains("nodes") ||
         !header["nodes"].is_number_unsigned())
       return "the header is damaged";
@@ -244,7 +243,7 @@ bool read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
     if (const std::string damage = damage_of(file); !damage.empty()) throw InputError(file.string(), damage, remedy);
     reader.emplace(file);
     std::string text = reader->header();
-    const json h = json::parse(text, nullptr, false);
+    const nlohmann::json h = nlohmann::json::parse(text, nullptr, false);
     if (h.is_discarded() || !h.contains("mesh_hash") || !h.contains("nodes")) damaged(file, "the header is damaged");
     if (h["mesh_hash"] != mesh_hash || h["nodes"] != mesh.global_nodes)
       throw InputError(file.string(), "the checkpoint belongs to another mesh than the case",
@@ -256,8 +255,8 @@ bool read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
   parallel::broadcast(mesh.comm, of_version);
   parallel::agree(mesh.comm, [&] {
     try {
-      take(json::parse(header));
-    } catch (const json::exception& error) {
+      take(nlohmann::json::parse(header));
+    } catch (const nlohmann::json::exception& error) {
       damaged(file, fmt::format("the header is damaged: {}", error.what()));
     }
   });
@@ -282,15 +281,15 @@ bool read(const fs::path& file, const distributed::DistributedMesh& mesh, std::u
 Checkpoint read_checkpoint(const fs::path& file, const distributed::DistributedMesh& mesh, const coupling::State& start,
                            std::uint64_t mesh_hash, const std::string& remedy) {
   Checkpoint c{.state = start, .position = {}};
-  c.has_end_pressure =
-      read(file, mesh, mesh_hash, c.state, remedy, [&](const json& header) { take_header(header, c, file.string()); });
+  c.has_end_pressure = read(file, mesh, mesh_hash, c.state, remedy,
+                            [&](const nlohmann::json& header) { take_header(header, c, file.string()); });
   return c;
 }
 
 std::vector<OutletStart> read_start(const fs::path& file, const distributed::DistributedMesh& mesh,
                                     coupling::State& state, std::uint64_t mesh_hash, const std::string& remedy) {
   std::vector<OutletStart> outlets;
-  read(file, mesh, mesh_hash, state, remedy, [&](const json& header) {
+  read(file, mesh, mesh_hash, state, remedy, [&](const nlohmann::json& header) {
     for (const auto& outlet : header.at("outlets"))
       outlets.push_back({outlet.at("face"), outlet.at("state").at(0), outlet.at("pressure")});
   });

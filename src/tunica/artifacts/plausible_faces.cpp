@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tunica/base/text.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/case/plausible.hpp"
 #include "tunica/mesh/boundary.hpp"
 
@@ -56,11 +57,10 @@ struct UsualArray {
   double low, high;  ///< SI, as for typed values
   const char* text;
 };
-constexpr double mmHg = 133.322387415;
 constexpr UsualArray usual_arrays[] = {
     {"stiffness", &bc::Support::stiffness, 1e3, 1e12, "1e3 N/m^3 to 1e12 N/m^3"},
     {"damping", &bc::Support::damping, 0, 1e12, "0 to 1e12 N s/m^3"},
-    {"pressure", &bc::Support::pressure, -100 * mmHg, 100 * mmHg, "-100 mmHg to 100 mmHg"}};
+    {"pressure", &bc::Support::pressure, -100 * unit::mmHg, 100 * unit::mmHg, "-100 mmHg to 100 mmHg"}};
 
 void check_support(const bc::Support& support, const std::string& face, const mesh::MeshData& data,
                    std::vector<Problem>& warnings) {

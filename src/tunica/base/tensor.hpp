@@ -44,6 +44,11 @@ template <class T>
 TUNICA_INLINE T norm(const Vec3<T>& a) {
   return sqrt(dot(a, a));
 }
+/// The direction of a, which is not zero.
+template <class T>
+TUNICA_INLINE Vec3<T> normalised(const Vec3<T>& a) {
+  return (T(1.0) / norm(a)) * a;
+}
 
 template <class T>
 TUNICA_INLINE Mat3<T> identity() {

@@ -9,7 +9,7 @@ namespace {
 using config::Problems;
 using config::Schema;
 
-void check_case(const FibresCase& c, Problems& problems) {
+void check_fibres_case(const FibresCase& c, Problems& problems) {
   if (!c.meshes.has_wall()) problems.add("meshes", "has no wall", "give the mesh of a wall");
   const bool joined = c.meshes.has_lumen() && c.meshes.interface;
   if (!c.meshes.interface && c.inner.empty())
@@ -42,7 +42,7 @@ Schema<FibresCase> FibresCase::schema() {
       .by_default()
       .section("meshes", &FibresCase::meshes, MeshSettings::schema(), "As in a case file; `tunica mesh` writes it")
       .include([](FibresCase& c) -> FibreSettings& { return c; }, FibreSettings::schema())
-      .check(check_case);
+      .check(check_fibres_case);
 }
 
 config::Parsed<FibresCase> read_fibres_case(const std::filesystem::path& file) {

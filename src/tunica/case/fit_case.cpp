@@ -19,7 +19,7 @@ namespace {
 
 // --- tests --------------------------------------------------------------------------------------------------------
 
-Schema<TestedSpecimen> loading_schema() {
+Schema<TestedSpecimen> fit_loading_schema() {
   return Schema<TestedSpecimen>("loading", "How the specimen was loaded.")
       .one_of()
       .alternative(Schema<PulledStrip>("uniaxial", "A strip pulled along one axis; its other faces are free.")
@@ -103,9 +103,9 @@ void check_columns(const FitTest& t, Problems& problems) {
     problems.add("section", "is given, but the file holds stresses", "remove it, or say `measure: force`");
 }
 
-Schema<FitTest> test_schema() {
+Schema<FitTest> fit_test_schema() {
   return Schema<FitTest>("test", "Measured points of one test: a table with a header line; lines with # are skipped.")
-      .include(&FitTest::loading, loading_schema())
+      .include(&FitTest::loading, fit_loading_schema())
       .file("file", &FitTest::file, "CSV file")
       .text("load", &FitTest::load,
             "Header of the deformation along the first axis, or of the amount of shear; of all but `gradients`")
@@ -139,7 +139,7 @@ Schema<FitTest> test_schema() {
 
 Schema<FitSpecimen> specimen_schema() {
   return Schema<FitSpecimen>("specimen", "A piece of tissue.")
-      .map("tests", &FitSpecimen::tests, test_schema(), "Its tests by name")
+      .map("tests", &FitSpecimen::tests, fit_test_schema(), "Its tests by name")
       .check([](const FitSpecimen& s, Problems& problems) {
         if (s.tests.empty()) problems.add("tests", "is empty", "add what was measured");
         check_keys("tests", s.tests, "test", problems);
@@ -170,7 +170,7 @@ Schema<FittedLaw> law_section_schema() {
       });
 }
 
-void check_case(const FitCase& c, Problems& problems) {
+void check_fit_case(const FitCase& c, Problems& problems) {
   if (c.specimens.empty()) problems.add("specimens", "is empty", "add what was measured");
   if (c.laws.empty()) problems.add("laws", "is empty", "add one, such as `laws: {dfd: dfd}`");
   check_keys("specimens", c.specimens, "specimen", problems);
@@ -238,7 +238,7 @@ Schema<FitCase> FitCase::schema() {
                    .by_default(),
                "Results")
       .by_default()
-      .check(check_case);
+      .check(check_fit_case);
 }
 
 ReadFitCase read_fit_case(const std::filesystem::path& file) {

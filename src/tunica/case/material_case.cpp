@@ -93,7 +93,7 @@ Schema<Gradients> gradients_schema() {
 
 // --- tests --------------------------------------------------------------------------------------------------------
 
-Schema<Loading> loading_schema() {
+Schema<Loading> material_loading_schema() {
   return Schema<Loading>("loading", "How the specimen is loaded.")
       .one_of()
       .alternative(uniaxial_schema())
@@ -131,9 +131,9 @@ void check_test(const MaterialTest& t, Problems& problems) {
     problems.add("data.stress_across", "is given, but the test has no second stress", "remove it");
 }
 
-Schema<MaterialTest> test_schema() {
+Schema<MaterialTest> material_test_schema() {
   return Schema<MaterialTest>("test", "One test of a specimen.")
-      .include(&MaterialTest::loading, loading_schema())
+      .include(&MaterialTest::loading, material_loading_schema())
       .choice("measure", &MaterialTest::measure,
               {{"cauchy", StressMeasure::cauchy},
                {"first_piola_kirchhoff", StressMeasure::first_piola_kirchhoff},
@@ -160,7 +160,7 @@ Schema<MaterialOutput> output_schema() {
       });
 }
 
-void check_case(const MaterialCase& c, Problems& problems) {
+void check_material_case(const MaterialCase& c, Problems& problems) {
   if (c.incompressible == false && !std::isfinite(bulk_modulus(c.material)))
     problems.add("incompressible", "is false, but the law has no finite bulk modulus",
                  "give the law a bulk_modulus, or a poisson_ratio below 0.5");
@@ -223,11 +223,11 @@ Schema<MaterialCase> MaterialCase::schema() {
       .include(&MaterialCase::volumetric_energy, wall::volumetric_energy_schema())
       .flag("incompressible", &MaterialCase::incompressible,
             "true: the volume is kept whatever the bulk modulus. When left out, the bulk modulus decides")
-      .map("tests", &MaterialCase::tests, test_schema(),
+      .map("tests", &MaterialCase::tests, material_test_schema(),
            "Tests by name; each writes a table `<name>.csv` and a plot `<name>.svg`")
       .section("output", &MaterialCase::output, output_schema(), "Results")
       .by_default()
-      .check(check_case);
+      .check(check_material_case);
 }
 
 config::Parsed<MaterialCase> read_material_case(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tunica/base/text.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/case/case.hpp"
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/case/mesh_settings.hpp"
@@ -18,8 +19,6 @@ namespace {
 
 namespace dimension = config::dimension;
 
-constexpr double ml_per_s = 1e-6, mmHg = 133.322387415;
-
 /// What tables of one kind usually reach, in SI units, and how that is said.
 struct Usual {
   const char* what;
@@ -30,17 +29,19 @@ struct Usual {
   const char *shown, *text;
 };
 
-constexpr Usual usual_flow{"flow", dimension::volume_flow,  0.01 * ml_per_s, 1000 * ml_per_s, 1 * ml_per_s, ml_per_s,
-                           "ml/s", "0.01 ml/s to 1000 ml/s"};
-constexpr Usual usual_pressure{"pressure", dimension::pressure, 1 * mmHg, 400 * mmHg, 40 * mmHg, mmHg,
-                               "mmHg",     "1 mmHg to 400 mmHg"};
+constexpr Usual usual_flow{
+    "flow", dimension::volume_flow,  0.01 * unit::ml_s, 1000 * unit::ml_s, 1 * unit::ml_s, unit::ml_s,
+    "ml/s", "0.01 ml/s to 1000 ml/s"};
+constexpr Usual usual_pressure{"pressure",      dimension::pressure, 1 * unit::mmHg, 400 * unit::mmHg,
+                               40 * unit::mmHg, unit::mmHg,          "mmHg",         "1 mmHg to 400 mmHg"};
 constexpr Usual usual_velocity{"velocity", dimension::velocity, 1e-5, 10, 0.01, 1, "m/s", "1e-5 m/s to 10 m/s"};
-constexpr Usual usual_traction{"traction", dimension::pressure, 0, 400 * mmHg, 0, mmHg, "mmHg", "up to 400 mmHg"};
+constexpr Usual usual_traction{"traction", dimension::pressure, 0,      400 * unit::mmHg,
+                               0,          unit::mmHg,          "mmHg", "up to 400 mmHg"};
 
 constexpr double shortest_period = 0.2, longest_period = 3;                  // s: 300 and 20 beats a minute
 constexpr double shortest_time_constant = 0.01, longest_time_constant = 30;  // s
-constexpr double highest_mean_pressure = 300 * mmHg, arterial_pressure = 40 * mmHg;
-constexpr double least_outflow = 0.1 * ml_per_s;
+constexpr double highest_mean_pressure = 300 * unit::mmHg, arterial_pressure = 40 * unit::mmHg;
+constexpr double least_outflow = 0.1 * unit::ml_s;
 constexpr double usual_resistance = 1e12;   // Pa s/m^3, as the keys have it
 constexpr double usual_capacitance = 1e-7;  // m^3/Pa, likewise
 constexpr double longest_step = 0.02;       // s: more is warned of as it is read
@@ -180,7 +181,7 @@ class Checker {
     warnings.push_back({where,
                         fmt::format("the flow is {:.4g} ml/s out of the vessel on average; blood usually flows in "
                                     "there",
-                                    -mean / ml_per_s),
+                                    -mean / unit::ml_s),
                         "the wrong sign? `positive: inflow` and `positive: outflow` say what a positive number means "
                         "(in a .flow file: outflow)"});
   }
@@ -241,7 +242,7 @@ class Checker {
       if (const auto* given = std::get_if<bc::Pressure>(&condition); given && may_be_opening(face))
         pressure = std::max(pressure, bc::make_waveform(given->pressure).mean());
     }
-    const double resistance = ml_per_s / outlets->conductance / mmHg;
+    const double resistance = unit::ml_s / outlets->conductance / unit::mmHg;
     const double needed = (inflow + outlets->driven) / outlets->conductance,
                  driven = pressure * outlets->conductance - outlets->driven;
     const char* remedy = "a slip of the unit of the resistances, or of the flow or pressure?";
@@ -250,14 +251,14 @@ class Checker {
           {"boundary",
            fmt::format("a mean inflow of {:.4g} ml/s through the resistances of the outlets, {:.4g} mmHg "
                        "s/ml in parallel, needs a mean pressure of {:.4g} mmHg; up to {:.0f} mmHg is usual",
-                       inflow / ml_per_s, resistance, needed / mmHg, highest_mean_pressure / mmHg),
+                       inflow / unit::ml_s, resistance, needed / unit::mmHg, highest_mean_pressure / unit::mmHg),
            remedy});
     if (!flow_is_given && pressure > arterial_pressure && driven > 0 && driven < least_outflow)
       warnings.push_back(
           {"boundary",
            fmt::format("a mean pressure of {:.4g} mmHg drives {:.3g} ml/s through the resistances of the "
                        "outlets, {:.4g} mmHg s/ml in parallel; more than {:.1f} ml/s is usual",
-                       pressure / mmHg, driven / ml_per_s, resistance, least_outflow / ml_per_s),
+                       pressure / unit::mmHg, driven / unit::ml_s, resistance, least_outflow / unit::ml_s),
            remedy});
   }
 

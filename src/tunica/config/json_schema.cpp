@@ -32,7 +32,7 @@ Json list_of(const Json& item, std::size_t count) {
   return list;
 }
 
-Json value_of(const Field& f) {
+Json json_value_of(const Field& f) {
   switch (f.kind) {
     case Kind::quantity:
       return quantity(f);
@@ -75,7 +75,7 @@ std::string described(const Field& f) {
 void add_level(const Description& d, Json& object, Json& rules) {
   Json alternatives = Json::array();
   for (const Field& f : d.fields) {
-    Json value = value_of(f);
+    Json value = json_value_of(f);
     value["description"] = described(f);
     if (f.default_text) value["default"] = *f.default_text;
     object["properties"][f.key] = std::move(value);
@@ -113,7 +113,7 @@ Json object_of(const Description& d) {
   if (!rules.empty()) object["allOf"] = std::move(rules);
 
   Json forms = Json::array({object});
-  if (const Field* plain = find(d, d.shorthand)) forms.push_back(value_of(*plain));
+  if (const Field* plain = find(d, d.shorthand)) forms.push_back(json_value_of(*plain));
   if (d.one_of) {
     std::vector<std::string> bare;
     for (const Field& f : d.fields)

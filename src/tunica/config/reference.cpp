@@ -14,7 +14,7 @@ std::string names_of(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string value_of(const Field& f) {
+std::string form_of(const Field& f) {
   const std::string number =
       f.dimension == dimension::none ? "number" : fmt::format("{} [{}]", name_of(f.dimension), si_unit(f.dimension));
   switch (f.kind) {
@@ -92,7 +92,7 @@ std::string table(const Description& d) {
     rows += "| key | value | allowed | default | meaning |\n|---|---|---|---|---|\n";
   }
   for (const Field& f : d.fields)
-    rows += row({fmt::format("`{}`", f.key), value_of(f), range_of(f), default_of(d, f), f.help});
+    rows += row({fmt::format("`{}`", f.key), form_of(f), range_of(f), default_of(d, f), f.help});
   if (!d.shorthand.empty())
     rows += fmt::format("\nA plain value in place of this section stands for `{}`.\n", d.shorthand);
   for (const Include& include : d.includes) {

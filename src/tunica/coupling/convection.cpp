@@ -16,7 +16,7 @@ namespace tunica::coupling {
 
 namespace {
 
-constexpr int n = fe::quadratic_nodes;
+constexpr int element_nodes = fe::quadratic_nodes;
 constexpr double tolerance = 1e-8;  // of the residual: far below what the projection takes from the flow
 constexpr int most_iterations = 200;
 
@@ -31,7 +31,7 @@ class Projection {
 
  private:
   struct Element {
-    std::array<std::int32_t, n> nodes;
+    std::array<std::int32_t, element_nodes> nodes;
     double volume;
     Vec3<double> gradients[4];  ///< of the barycentric coordinates
   };
@@ -57,7 +57,7 @@ Projection::Projection(const distributed::DistributedMesh& mesh, const State& st
       element.nodes = distributed::quadratic_nodes(region, e);
       element.volume = shape.volume;
       for (int a = 0; a < 4; ++a) element.gradients[a] = shape.dN[a];
-      for (int a = 0; a < n; ++a)
+      for (int a = 0; a < element_nodes; ++a)
         if (element.nodes[a] < mesh.owned_nodes)
           inverse_diagonal_[element.nodes[a]] += shape.volume * fe::quadratic_mass[a][a];
     }
@@ -69,16 +69,17 @@ Projection::Projection(const distributed::DistributedMesh& mesh, const State& st
 std::vector<double> Projection::convection(const State& state, std::span<const double> stream) const {
   std::vector<double> integral(at(mesh_.nodes()), 0.0);
   for (const Element& e : elements_) {
-    Vec3<double> v[n], b[n];
-    for (int a = 0; a < n; ++a) {
+    Vec3<double> v[element_nodes], b[element_nodes];
+    for (int a = 0; a < element_nodes; ++a) {
       v[a] = vector_at(state.velocity_pressure.data(), e.nodes[a]);
       b[a] = vector_at(stream.data(), e.nodes[a]);
     }
     for (const auto& point : fe::quadratic_fourteen_points) {
       Vec3<double> along{}, sum{};
-      for (int a = 0; a < n; ++a) along = along + point.N[a] * b[a];
-      for (int a = 0; a < n; ++a) sum = sum + dot(fe::quadratic_gradient(e.gradients, point, a), along) * v[a];
-      for (int a = 0; a < n; ++a)
+      for (int a = 0; a < element_nodes; ++a) along = along + point.N[a] * b[a];
+      for (int a = 0; a < element_nodes; ++a)
+        sum = sum + dot(fe::quadratic_gradient(e.gradients, point, a), along) * v[a];
+      for (int a = 0; a < element_nodes; ++a)
         for (int c = 0; c < 3; ++c) integral[at(e.nodes[a]) + c] += point.weight * e.volume * point.N[a] * sum[c];
     }
   }
@@ -88,8 +89,8 @@ std::vector<double> Projection::convection(const State& state, std::span<const d
 std::vector<double> Projection::times(const std::vector<double>& x) const {
   std::vector<double> y(x.size(), 0.0);
   for (const Element& e : elements_)
-    for (int a = 0; a < n; ++a)
-      for (int b = 0; b < n; ++b)
+    for (int a = 0; a < element_nodes; ++a)
+      for (int b = 0; b < element_nodes; ++b)
         for (int c = 0; c < 3; ++c)
           y[at(e.nodes[a]) + c] += e.volume * fe::quadratic_mass[a][b] * x[at(e.nodes[b]) + c];
   return y;

@@ -53,7 +53,7 @@ Candidate best_element(const distributed::DistributedMesh& mesh, const ProbePlac
 
 Probes::Probes(const distributed::DistributedMesh& mesh, std::span<const ProbePlace> places)
     : mesh_(mesh), probes_(places.size()) {
-  std::vector<Problem> problems;
+  std::vector<tunica::Problem> problems;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Candidate best = best_element(mesh, places[k]);
     const double inside = parallel::global_max(mesh.comm, best.inside);

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "tunica/base/error.hpp"
@@ -152,6 +154,11 @@ void write_atomically(const fs::path& path, const std::string& ending,
     refuse(name, error);
   }
   if (const int error = bring_folder_to_disk(name.parent_path()); error != 0) refuse(name, error);
+}
+
+bool holds(const fs::path& path, std::string_view text) {
+  std::ifstream stream(path, std::ios::binary);
+  return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == text;
 }
 
 void append(const fs::path& path, std::string_view text) {

@@ -45,6 +45,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view text);
 void write_atomically(const std::filesystem::path& path, const std::string& ending,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// Is `text` what the file holds? Without one, no.
+bool holds(const std::filesystem::path& path, std::string_view text);
+
 /// Adds `text` to a file that is there. When that fails, the file holds what it held before. Survives the end of this
 /// process; see sync_file() for that of the machine. Throws SolverError.
 void append(const std::filesystem::path& path, std::string_view text);

@@ -130,15 +130,15 @@ std::string remedy_for(std::string_view cell) {
   return "write numbers with a decimal point; start comment lines with #";
 }
 
-enum class Reading { number, no_number, not_finite, out_of_range };
+enum class NumberReading { number, no_number, not_finite, out_of_range };
 
-Reading read_number(std::string_view cell, double& value) {
+NumberReading read_number(std::string_view cell, double& value) {
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-' && cell[1] != '+') cell.remove_prefix(1);
   const char* end = cell.data() + cell.size();
   const auto [stop, error] = std::from_chars(cell.data(), end, value);
-  if (error == std::errc::result_out_of_range && stop == end) return Reading::out_of_range;
-  if (error != std::errc() || stop != end) return Reading::no_number;
-  return std::isfinite(value) ? Reading::number : Reading::not_finite;
+  if (error == std::errc::result_out_of_range && stop == end) return NumberReading::out_of_range;
+  if (error != std::errc() || stop != end) return NumberReading::no_number;
+  return std::isfinite(value) ? NumberReading::number : NumberReading::not_finite;
 }
 
 std::size_t find_header(const std::vector<std::string>& headers, const std::string& wanted,
@@ -197,7 +197,7 @@ std::vector<TextLine> read_lines(const std::filesystem::path& file, const std::s
 
 bool is_number(std::string_view cell) {
   double value = 0;
-  return read_number(text::trimmed(cell), value) == Reading::number;
+  return read_number(text::trimmed(cell), value) == NumberReading::number;
 }
 
 double parse_number(std::string_view cell, const std::string& where, const std::string& name) {
@@ -205,15 +205,15 @@ double parse_number(std::string_view cell, const std::string& where, const std::
   double value = 0;
   const char* what = nullptr;
   switch (read_number(cell, value)) {
-    case Reading::number:
+    case NumberReading::number:
       return value;
-    case Reading::no_number:
+    case NumberReading::no_number:
       what = "is not a number";
       break;
-    case Reading::not_finite:
+    case NumberReading::not_finite:
       what = "is not a finite number";
       break;
-    case Reading::out_of_range:
+    case NumberReading::out_of_range:
       what = "is larger or smaller than a number can be";
       break;
   }

@@ -70,17 +70,17 @@ std::optional<Owner> parse(const std::string& text) {
   return owner;
 }
 
-enum class Reading { missing, unreadable, done };
+enum class OwnerReading { missing, unreadable, done };
 
-Reading read_owner(const fs::path& lock, Owner& owner) {
+OwnerReading read_owner(const fs::path& lock, Owner& owner) {
   refuse_other_than_file(lock);
   std::ifstream stream(lock);
   std::error_code ignored;
-  if (!stream) return fs::exists(fs::symlink_status(lock, ignored)) ? Reading::unreadable : Reading::missing;
+  if (!stream) return fs::exists(fs::symlink_status(lock, ignored)) ? OwnerReading::unreadable : OwnerReading::missing;
   const auto parsed = parse({std::istreambuf_iterator<char>(stream), {}});
-  if (!parsed) return Reading::unreadable;
+  if (!parsed) return OwnerReading::unreadable;
   owner = *parsed;
-  return Reading::done;
+  return OwnerReading::done;
 }
 
 std::string description(const Owner& owner) {
@@ -178,7 +178,7 @@ std::optional<Acquired> take_over(const Draft& draft, const fs::path& lock, cons
 std::optional<Acquired> try_to_acquire(const Draft& draft, const fs::path& lock, const ProcessId& me, int depth) {
   if (draft.link_to(lock)) return Acquired{};
   Owner owner;
-  if (read_owner(lock, owner) != Reading::done) return std::nullopt;
+  if (read_owner(lock, owner) != OwnerReading::done) return std::nullopt;
   if (owner.process == me) return Acquired{.nested = true, .taken_from = {}};
   if (fate(owner.process) == Fate::ended) return take_over(draft, lock, owner, me, depth);
   if (depth == 0) refuse(lock, owner);
@@ -197,7 +197,7 @@ std::optional<Acquired> take_over(const Draft& draft, const fs::path& lock, cons
     const fs::path& file;
   } at_the_end{inner};
   Owner now;
-  if (read_owner(lock, now) != Reading::done || now.text != ended.text) return std::nullopt;
+  if (read_owner(lock, now) != OwnerReading::done || now.text != ended.text) return std::nullopt;
   draft.replace(lock);
   return Acquired{.nested = false, .taken_from = ended};
 }
@@ -209,7 +209,7 @@ Acquired acquire(const fs::path& lock) {
   for (int trial = 0; trial < most_trials && unreadable < most_unreadable_trials; ++trial) {
     if (auto acquired = try_to_acquire(draft, lock, me, 0)) return *acquired;
     Owner owner;
-    if (read_owner(lock, owner) == Reading::unreadable) ++unreadable;
+    if (read_owner(lock, owner) == OwnerReading::unreadable) ++unreadable;
     std::this_thread::sleep_for(pause_between_trials);
   }
   refuse_unreadable(lock);
@@ -255,7 +255,7 @@ void FolderLock::release() noexcept {
   if (file_.empty() || holder_ != getpid()) return;
   Owner owner;
   // Somebody may have removed it by hand and another process taken its place.
-  if (read_owner(file_, owner) == Reading::done && owner.process.pid == holder_ && owner.process == this_process())
+  if (read_owner(file_, owner) == OwnerReading::done && owner.process.pid == holder_ && owner.process == this_process())
     unlink(file_.c_str());
   if (made_folder_) rmdir(file_.parent_path().c_str());  // does nothing when there is something in it
   file_.clear();
@@ -264,7 +264,7 @@ void FolderLock::release() noexcept {
 void refuse_if_owned_by_another(const fs::path& folder) {
   const fs::path lock = folder / lock_name;
   Owner owner;
-  if (read_owner(lock, owner) != Reading::done || owner.process == this_process()) return;
+  if (read_owner(lock, owner) != OwnerReading::done || owner.process == this_process()) return;
   if (fate(owner.process) != Fate::ended) refuse(lock, owner);
 }
 

@@ -41,7 +41,7 @@ Names words_of(const std::string& text) {
 }
 
 /// The rest of a header: one name in each line.
-Names listed(std::istream& stream) {
+Names listed_files(std::istream& stream) {
   Names names;
   for (std::string line; std::getline(stream, line);)
     if (const std::string name = trimmed(line); !name.empty()) names.push_back(name);
@@ -76,7 +76,7 @@ Names numbered(const Names& words) {
 Names data_files(const std::string& value, std::istream& rest) {
   const Names words = words_of(value);
   if (words.empty()) return {};
-  if (words[0] == "LIST") return listed(rest);
+  if (words[0] == "LIST") return listed_files(rest);
   if (words.size() > 2 && words[0].find('%') != std::string::npos) return numbered(words);
   return {value};  // a name may hold blanks
 }

@@ -10,6 +10,11 @@
 
 namespace tunica::frames {
 
+inline Vec3<double> vector_at(const std::vector<double>& vectors, std::int32_t e) {
+  const double* v = vectors.data() + 3 * static_cast<std::size_t>(e);
+  return {{v[0], v[1], v[2]}};
+}
+
 inline bool is_set(const std::vector<double>& values, int components, std::int32_t e) {
   const auto first = values.begin() + static_cast<std::ptrdiff_t>(e) * components;
   return std::any_of(first, first + components, [](double x) { return x != 0; });

@@ -19,11 +19,6 @@ constexpr double parallel_sine = 0.02, no_gradient = 1e-3;
 /// A gradient of this share of the mean and more is fully trusted.
 constexpr double sound_gradient = 0.2;
 
-Vec3<double> vector(const std::vector<double>& values, std::int32_t e) {
-  const double* v = values.data() + 3 * static_cast<std::size_t>(e);
-  return {{v[0], v[1], v[2]}};
-}
-
 Vec3<double> across(const Vec3<double>& v, const Vec3<double>& normal) { return v - dot(v, normal) * normal; }
 
 /// Outlet faces of the domain, and which of them meet, as cap and ring of one opening do: those are one group.
@@ -112,7 +107,7 @@ double mean_length(const ElementGraph& graph, const std::vector<double>& gradien
   double sums[2] = {0, 0};
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
     const double volume = distributed::shape(graph.mesh(), graph.nodes(e)).volume;
-    sums[0] += volume * norm(vector(gradient, e));
+    sums[0] += volume * norm(vector_at(gradient, e));
     sums[1] += volume;
   }
   parallel::global_sum(graph.mesh().comm, sums);
@@ -123,7 +118,7 @@ double mean_length(const ElementGraph& graph, const std::vector<double>& gradien
 void fill_undefined(const ElementGraph& graph, const std::vector<double>& normals, std::vector<double>& e2) {
   std::vector<double> tensors;
   for (std::int32_t e = 0; e < graph.size(); ++e) {
-    const auto d = dyad(vector(e2, e), 1.0);
+    const auto d = dyad(vector_at(e2, e), 1.0);
     tensors.insert(tensors.end(), d.begin(), d.end());
   }
   carry_inwards(graph, tensors, 6, mean_dyad);
@@ -132,11 +127,11 @@ void fill_undefined(const ElementGraph& graph, const std::vector<double>& normal
     if (result[0] != 0 || result[1] != 0 || result[2] != 0) continue;
     SymmetricTensor s;
     std::copy_n(tensors.begin() + 6 * static_cast<std::ptrdiff_t>(e), 6, s.begin());
-    auto v = across(principal(s).direction, vector(normals, e));
+    auto v = across(principal(s).direction, vector_at(normals, e));
     // Nothing around tells a direction in this plane: any will do, and its confidence is 0.
     if (!(norm(v) > parallel_sine)) {
       const Vec3<double> x{{1, 0, 0}}, y{{0, 1, 0}};
-      v = across(std::abs(normals[3 * static_cast<std::size_t>(e)]) < 0.7 ? x : y, vector(normals, e));
+      v = across(std::abs(normals[3 * static_cast<std::size_t>(e)]) < 0.7 ? x : y, vector_at(normals, e));
     }
     v = (1 / norm(v)) * v;
     std::copy(v.x, v.x + 3, result);
@@ -150,7 +145,7 @@ std::vector<double> jumps(const ElementGraph& graph, const std::vector<double>& 
   std::vector<double> result(static_cast<std::size_t>(graph.owned()), 0.0);
   for (std::int32_t e = 0; e < graph.owned(); ++e)
     for (const auto n : graph.neighbours(e)) {
-      const Vec3<double> a[2] = {vector(e2, e), vector(e3, e)}, b[2] = {vector(e2, n), vector(e3, n)};
+      const Vec3<double> a[2] = {vector_at(e2, e), vector_at(e3, e)}, b[2] = {vector_at(e2, n), vector_at(e3, n)};
       for (const double turn : {angle(a[0], b[0]), angle(a[1], b[1]), angle(cross(a[0], a[1]), cross(b[0], b[1]))})
         result[e] = std::max(result[e], turn);
     }
@@ -171,7 +166,7 @@ Frames make_frames(const ElementGraph& graph, const FrameFaces& faces, const Fra
   frames.iterations = solution.iterations;
   std::vector<double> e2(3 * static_cast<std::size_t>(graph.size()), 0.0);
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    const auto g = vector(gradient, e), tangent = across(g, vector(normals.direction, e));
+    const auto g = vector_at(gradient, e), tangent = across(g, vector_at(normals.direction, e));
     const double length = norm(g), sine = norm(tangent) / length;
     const bool defined = length > no_gradient * mean && sine > parallel_sine;
     frames.confidence.push_back(defined ? normals.agreement[e] * sine * std::min(1.0, length / (sound_gradient * mean))
@@ -186,8 +181,8 @@ Frames make_frames(const ElementGraph& graph, const FrameFaces& faces, const Fra
     graph.update(e2, 3);
   }
   for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    frames.e2.push_back(vector(e2, e));
-    frames.e3.push_back(vector(normals.direction, e));
+    frames.e2.push_back(vector_at(e2, e));
+    frames.e3.push_back(vector_at(normals.direction, e));
     frames.e1.push_back(cross(frames.e2.back(), frames.e3.back()));
   }
   frames.jump = jumps(graph, e2, normals.direction);

@@ -17,11 +17,6 @@ namespace tunica::frames {
 
 namespace {
 
-Vec3<double> vector(const std::vector<double>& values, std::int32_t e) {
-  const double* v = values.data() + 3 * static_cast<std::size_t>(e);
-  return {{v[0], v[1], v[2]}};
-}
-
 /// The given faces as indices into mesh.faces. Throws InputError for a name that is none.
 std::vector<char> chosen_faces(const distributed::DistributedMesh& mesh, const std::vector<std::string>& names) {
   std::vector<char> chosen(mesh.faces.size(), 0);
@@ -51,11 +46,11 @@ std::vector<double> starting_vectors(const ElementGraph& graph, const std::vecto
 /// Mean of the vectors within the tolerance of the first one, eq. (6.2); its length before normalising.
 double conditional_mean(const std::vector<double>& values, std::span<const std::int32_t> elements, double cosine,
                         double* result) {
-  const auto first = vector(values, elements[0]);
+  const auto first = vector_at(values, elements[0]);
   Vec3<double> sum{{0, 0, 0}};
   int count = 0;
   for (const auto e : elements) {
-    const auto v = vector(values, e);
+    const auto v = vector_at(values, e);
     if (dot(v, first) < cosine) continue;
     sum = sum + v;
     ++count;
@@ -121,7 +116,7 @@ WallNormals normals_by(const ElementGraph& graph, const std::vector<char>& inner
     for (int i = 0; i < 6; ++i)
       for (const auto node : graph.nodes(e)) s[i] += dyads[i][node];
     const auto p = principal(s);
-    const double sign = dot(p.direction, vector(normals.direction, e)) < 0 ? -1 : 1;
+    const double sign = dot(p.direction, vector_at(normals.direction, e)) < 0 ? -1 : 1;
     for (int i = 0; i < 3; ++i) normals.direction[3 * static_cast<std::size_t>(e) + i] = sign * p.direction[i];
     // The direction is sure up to a second one of half the weight, which is what the curvature of a branch can bring.
     normals.agreement.push_back(std::clamp(2 * (p.largest - p.second) / p.largest, 0.0, 1.0));

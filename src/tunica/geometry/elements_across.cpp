@@ -6,14 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "tunica/base/limits.hpp"
 #include "tunica/geometry/size_field.hpp"
 
 namespace tunica::geometry {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double widest = 0.1;  // m: no vessel is wider
+using base::infinity;
+constexpr double widest_vessel = 0.1;  // m: no vessel is wider
 
 /// Where the wall is nearest to a node, and which way that is.
 struct Nearest {
@@ -63,7 +64,7 @@ ElementsAcross elements_across(const std::vector<Point>& points, std::span<const
     for (const auto node : t) result.volume[node] += 0.25 * volume;
   }
   const TriangleTree tree({points, std::move(wall)});
-  const auto diameter = lumen_diameter(tree, widest);
+  const auto diameter = lumen_diameter(tree, widest_vessel);
   const auto normals = point_normals(tree.surface());
   std::vector<Vec3<double>> direction(n, {{0, 0, 0}});
   for (std::size_t p = 0; p < n; ++p) {

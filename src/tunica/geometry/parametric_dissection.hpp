@@ -1,17 +1,17 @@
 // Parameters of an idealised type-B dissection: what the user may choose, and what is possible.
 #pragma once
 
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tunica/base/units.hpp"
 #include "tunica/config/schema.hpp"
 
 namespace tunica::geometry {
 
-inline constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+using unit::mm, unit::degree;
 
 /// Lengths along the centreline of the aorta count from the inlet. Angles about it count from the outside of the arch
 /// towards the right of the vessel's direction. Radii are those of the lumen.

@@ -6,13 +6,14 @@
 #include <queue>
 #include <tuple>
 
+#include "tunica/base/limits.hpp"
 #include "tunica/geometry/nearby_search.hpp"
 
 namespace tunica::geometry {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using base::infinity;
 
 /// Neighbours of each point along edges.
 std::vector<std::vector<std::int64_t>> neighbours(const TriangleSurface& surface) {

@@ -21,7 +21,7 @@ namespace {
 
 using geometry::TriangleSurface;
 
-constexpr int sweeps = 80;
+constexpr int smoothing_sweeps = 80;
 constexpr double roughest = 0.15;      // voxels of noise that a surface may have
 constexpr double thinnest_wall = 0.4;  // voxels; smoothing leaves no less of a flap
 constexpr double farthest_way = 3;     // of the noise; what is farther off is shape
@@ -94,7 +94,7 @@ TriangleSurface largest_parts(const TriangleSurface& surface, int count) {
 /// Takes what is left of the voxels, and what is noise of the labels, without making triangles cross.
 void take_noise(TriangleSurface& surface, double voxel, const Log& log) {
   const auto contour = surface.points;
-  smooth_surface(surface, sweeps);
+  smooth_surface(surface, smoothing_sweeps);
   const double rough = roughness(surface);
   log(fmt::format("roughness of the surface: {:.2f} voxels", rough / voxel));
   if (rough > roughest * voxel) {

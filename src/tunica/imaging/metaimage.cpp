@@ -12,7 +12,7 @@ namespace tunica::imaging {
 
 namespace {
 
-TextHeader read_header(const std::filesystem::path& path) {
+TextHeader read_metaimage_header(const std::filesystem::path& path) {
   TextHeader header{.path = path};
   HeaderLines lines(path);
   while (lines.next()) {
@@ -44,7 +44,7 @@ bool flag(const TextHeader& header, const std::string& name, bool otherwise) {
   return first == 't' || first == '1';
 }
 
-ValueType value_type(const TextHeader& header) {
+ValueType metaimage_value_type(const TextHeader& header) {
   static const std::map<std::string, ValueType> types = {
       {"met_char", ValueType::int8},       {"met_uchar", ValueType::uint8},       {"met_short", ValueType::int16},
       {"met_ushort", ValueType::uint16},   {"met_int", ValueType::int32},         {"met_uint", ValueType::uint32},
@@ -62,7 +62,7 @@ std::vector<double> any_numbers(const TextHeader& header, std::initializer_list<
   return name.empty() ? otherwise : header.numbers(name, otherwise.size());
 }
 
-ImageFrame read_frame(const TextHeader& header) {
+ImageFrame metaimage_frame(const TextHeader& header) {
   if (header.whole_numbers("ndims", 1)[0] != 3)
     throw InputError(header.path.string(), "is an image of " + printable(header.need("ndims")) + " dimensions",
                      "give a three-dimensional image");
@@ -126,16 +126,16 @@ void limit_compressed(const TextHeader& header, DataPlace& place) {
 }
 
 /// The data of `count` values, at the first one.
-std::unique_ptr<DataStream> open_data(const TextHeader& header, std::int64_t count) {
+std::unique_ptr<DataStream> open_metaimage_data(const TextHeader& header, std::int64_t count) {
   const bool compressed_data = flag(header, "compresseddata", false);
-  auto place = data_place(header, count * bytes_of(value_type(header)));
+  auto place = data_place(header, count * bytes_of(metaimage_value_type(header)));
   if (compressed_data) limit_compressed(header, place);
   return std::make_unique<DataStream>(place, compressed_data ? Packing::deflated : Packing::raw);
 }
 
 ValueFormat value_format(const TextHeader& header) {
   const bool big = flag(header, "binarydatabyteordermsb", false) || flag(header, "elementbyteordermsb", false);
-  return {.type = value_type(header), .big_endian = big};
+  return {.type = metaimage_value_type(header), .big_endian = big};
 }
 
 /// Takes the fourth axis, of times, out of the header; returns its size.
@@ -163,16 +163,16 @@ std::int64_t take_times(TextHeader& header) {
 }  // namespace
 
 LabelImage read_metaimage(const std::filesystem::path& path) {
-  const auto header = read_header(path);
-  const auto frame = read_frame(header);
+  const auto header = read_metaimage_header(path);
+  const auto frame = metaimage_frame(header);
   const auto format = value_format(header);
-  const auto data = open_data(header, frame.count());
+  const auto data = open_metaimage_data(header, frame.count());
   if (!flag(header, "binarydata", true)) return {frame, read_labels_from_text(*data, frame, path)};
   return {frame, read_labels(*data, format, frame, path)};
 }
 
 ValueImage open_metaimage(const std::filesystem::path& path) {
-  auto header = read_header(path);
+  auto header = read_metaimage_header(path);
   ValueImage image;
   image.path = path;
   image.times = take_times(header);
@@ -181,11 +181,11 @@ ValueImage open_metaimage(const std::filesystem::path& path) {
     if (image.per_voxel < 1) header.refuse("elementnumberofchannels", "must be above zero", "write the image again");
     header.fields.at("elementnumberofchannels").value = std::to_string(1);
   }
-  image.frame = read_frame(header);
+  image.frame = metaimage_frame(header);
   if (!flag(header, "binarydata", true))
     header.refuse("binarydata", "series of numbers are read from binary data", "write it as binary data");
   image.format = value_format(header);
-  image.data = open_data(header, image.frame.count() * image.per_voxel * image.times);
+  image.data = open_metaimage_data(header, image.frame.count() * image.per_voxel * image.times);
   return image;
 }
 

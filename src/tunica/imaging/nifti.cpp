@@ -26,7 +26,7 @@ namespace tunica::imaging {
 
 namespace {
 
-constexpr double sign[3] = {-1, -1, 1};  // of NIfTI's axes along the patient axes
+constexpr double axis_sign[3] = {-1, -1, 1};  // of NIfTI's axes along the patient axes
 
 /// What both versions of the header say.
 struct Header {
@@ -231,9 +231,9 @@ ImageFrame read_frame(const Header& h, const std::filesystem::path& path) {
   for (int d = 0; d < 3; ++d) {
     for (int a = 0; a < 3; ++a) {
       const double mirror = a == 2 && h.pixdim[0] < 0 ? -1 : 1;
-      steps[a][d] = unit * sign[d] * (sform ? h.srow[d][a] : mirror * turn(d, a) * h.pixdim[a + 1]);
+      steps[a][d] = unit * axis_sign[d] * (sform ? h.srow[d][a] : mirror * turn(d, a) * h.pixdim[a + 1]);
     }
-    origin[d] = unit * sign[d] * (sform ? h.srow[d][3] : h.qoffset[d]);
+    origin[d] = unit * axis_sign[d] * (sform ? h.srow[d][3] : h.qoffset[d]);
   }
   if (!sform)
     for (int a = 1; a <= 3; ++a)
@@ -328,8 +328,8 @@ void write_nifti(const LabelImage& image, const std::filesystem::path& path) {
   double spacing[3];
   for (int a = 0; a < 3; ++a) {
     spacing[a] = 1e3 * norm(frame.steps[a]);
-    for (int d = 0; d < 3; ++d) matrix->SetElement(d, a, 1e3 * sign[d] * frame.steps[a][d] / spacing[a]);
-    matrix->SetElement(a, 3, 1e3 * sign[a] * frame.origin[a]);
+    for (int d = 0; d < 3; ++d) matrix->SetElement(d, a, 1e3 * axis_sign[d] * frame.steps[a][d] / spacing[a]);
+    matrix->SetElement(a, 3, 1e3 * axis_sign[a] * frame.origin[a]);
   }
   data->SetSpacing(spacing);
   vtkNew<vtkNIFTIImageWriter> writer;

@@ -14,7 +14,7 @@ namespace tunica::imaging {
 
 namespace {
 
-TextHeader read_header(const std::filesystem::path& path) {
+TextHeader read_nrrd_header(const std::filesystem::path& path) {
   TextHeader header{.path = path};
   HeaderLines lines(path);
   if (!lines.next() || !lines.text().starts_with("NRRD"))
@@ -37,7 +37,7 @@ TextHeader read_header(const std::filesystem::path& path) {
 }
 
 /// NRRD has several names for a type, such as short, short int, signed short int, int16 and int16_t.
-ValueType value_type(const TextHeader& header) {
+ValueType nrrd_value_type(const TextHeader& header) {
   static const std::map<std::string, ValueType> types = {
       {"char", ValueType::int8},      {"int8", ValueType::int8},     {"uchar", ValueType::uint8},
       {"uint8", ValueType::uint8},    {"short", ValueType::int16},   {"int16", ValueType::int16},
@@ -97,7 +97,7 @@ std::vector<double> origin_from_axes(const TextHeader& header, const std::vector
   return origin;
 }
 
-ImageFrame read_frame(const TextHeader& header) {
+ImageFrame nrrd_frame(const TextHeader& header) {
   if (header.whole_numbers("dimension", 1)[0] != 3)
     throw InputError(header.path.string(), "is an image of " + printable(header.need("dimension")) + " dimensions",
                      "give a three-dimensional image of one value each");
@@ -221,13 +221,13 @@ Encoding encoding_of(const TextHeader& header) {
 namespace {
 
 /// The data of `count` values, at the first one.
-std::unique_ptr<DataStream> open_data(const TextHeader& header, std::int64_t count) {
+std::unique_ptr<DataStream> open_nrrd_data(const TextHeader& header, std::int64_t count) {
   const auto encoding = encoding_of(header);
   auto place = data_place(header);
   skip_lines(place, skipped(header, {"line skip", "lineskip"}, 0), header);
   // -1 says of raw data that they are the end of the file.
   const auto bytes = skipped(header, {"byte skip", "byteskip"}, encoding == Encoding::raw ? -1 : 0);
-  if (bytes == -1) place_at_end(place, count * bytes_of(value_type(header)));
+  if (bytes == -1) place_at_end(place, count * bytes_of(nrrd_value_type(header)));
   auto data = std::make_unique<DataStream>(place, encoding == Encoding::gzip ? Packing::deflated : Packing::raw);
   if (bytes > 0 && data->skip(bytes) < bytes)
     header.refuse(header.first_of({"byte skip", "byteskip"}), "there are fewer bytes", "correct it");
@@ -237,27 +237,27 @@ std::unique_ptr<DataStream> open_data(const TextHeader& header, std::int64_t cou
 }  // namespace
 
 LabelImage read_nrrd(const std::filesystem::path& path) {
-  const auto header = read_header(path);
-  const auto frame = read_frame(header);
-  const auto type = value_type(header);
-  const auto data = open_data(header, frame.count());
+  const auto header = read_nrrd_header(path);
+  const auto frame = nrrd_frame(header);
+  const auto type = nrrd_value_type(header);
+  const auto data = open_nrrd_data(header, frame.count());
   if (encoding_of(header) == Encoding::text) return {frame, read_labels_from_text(*data, frame, path)};
   return {frame, read_labels(*data, {.type = type, .big_endian = big_endian(header, type)}, frame, path)};
 }
 
 ValueImage open_nrrd(const std::filesystem::path& path) {
-  auto header = read_header(path);
+  auto header = read_nrrd_header(path);
   const auto fourth = take_fourth_axis(header);
   ValueImage image;
   image.path = path;
-  image.frame = read_frame(header);
+  image.frame = nrrd_frame(header);
   image.per_voxel = fourth.first;
   image.times = fourth.last;
-  const auto type = value_type(header);
+  const auto type = nrrd_value_type(header);
   if (encoding_of(header) == Encoding::text)
     header.refuse("encoding", "series of numbers are read from raw or gzip", "write it with encoding raw or gzip");
   image.format = {.type = type, .big_endian = big_endian(header, type)};
-  image.data = open_data(header, image.frame.count() * image.per_voxel * image.times);
+  image.data = open_nrrd_data(header, image.frame.count() * image.per_voxel * image.times);
   return image;
 }
 

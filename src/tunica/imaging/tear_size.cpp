@@ -12,8 +12,8 @@ namespace tunica::imaging {
 
 namespace {
 
-constexpr double around = 6e-3;            // m about a tear that give way
-constexpr double least = 0.7, most = 1.2;  // of its diameter
+constexpr double reach_of_change = 6e-3;               // m about a tear that give way
+constexpr double least_scale = 0.7, most_scale = 1.2;  // of its diameter
 
 /// The open part of the surface between the lumens.
 struct Open {
@@ -38,7 +38,7 @@ std::vector<Open> open_parts(const FlapSides& sides, const std::vector<Contact>&
   std::vector<Open> parts(tears.size());
   std::vector<double> weights(tears.size(), 0.0);
   for (std::int64_t i = 0; i < std::ssize(sides.side); ++i) {
-    if (std::abs(sides.side[i]) >= width || sides.to_tear[i] > around) continue;
+    if (std::abs(sides.side[i]) >= width || sides.to_tear[i] > reach_of_change) continue;
     const auto v = frame.voxel(i);
     bool inner = true;
     for (int d = 0; d < 3; ++d) inner = inner && v[d] > 0 && v[d] + 1 < frame.size[d];
@@ -60,9 +60,9 @@ std::vector<Open> open_parts(const FlapSides& sides, const std::vector<Contact>&
   return parts;
 }
 
-/// 1 in the tear, 0 from `around` on, without steps in the slope.
+/// 1 in the tear, 0 from `reach_of_change` on, without steps in the slope.
 double share_of(double distance) {
-  const double s = std::clamp(1 - distance / around, 0.0, 1.0);
+  const double s = std::clamp(1 - distance / reach_of_change, 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 
@@ -84,7 +84,7 @@ void narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears, geom
     const auto t = nearest(tears, p);
     const double area = norm(before[t].area);
     if (area == 0) continue;
-    const double scale = std::clamp(std::sqrt(tears[t].area / area), least, most);
+    const double scale = std::clamp(std::sqrt(tears[t].area / area), least_scale, most_scale);
     const Vec3<double> normal = (1 / area) * before[t].area, way = p - before[t].centre;
     p = p + (share * (scale - 1)) * (way - dot(way, normal) * normal);
   }

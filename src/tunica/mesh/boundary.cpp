@@ -21,11 +21,6 @@ std::array<std::int64_t, 3> outward(const std::array<std::int64_t, 4>& t, int fa
   return {t[tetrahedron_faces[face][0]], t[tetrahedron_faces[face][1]], t[tetrahedron_faces[face][2]]};
 }
 
-std::array<std::int64_t, 3> sorted(std::array<std::int64_t, 3> nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
 /// Whether `nodes` is an even permutation of its sorted order.
 bool even(const std::array<std::int64_t, 3>& n) { return ((n[0] < n[1]) + (n[1] < n[2]) + (n[2] < n[0])) == 2; }
 

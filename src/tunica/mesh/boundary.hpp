@@ -1,6 +1,7 @@
 // The boundary of a tetrahedral mesh, and the check that named faces cover it exactly once.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -15,6 +16,12 @@ namespace tunica::mesh {
 /// Triangles of tetrahedron (0, 1, 2, 3); number f lies opposite node f. Counter-clockwise from outside when the
 /// tetrahedron is positive.
 inline constexpr int tetrahedron_faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+/// The same for a triangle in whichever order its nodes are given.
+inline std::array<std::int64_t, 3> sorted(std::array<std::int64_t, 3> triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
 
 /// Triangles that belong to exactly one tetrahedron, found in time linear in the number of elements.
 class Boundary {

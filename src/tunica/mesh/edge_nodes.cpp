@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "tunica/fe/quadratic_tetrahedron.hpp"
+#include "tunica/mesh/boundary.hpp"
 
 namespace tunica::mesh {
 
@@ -18,9 +19,9 @@ struct HashEnds {
   }
 };
 
-class Edges {
+class EdgeNodes {
  public:
-  explicit Edges(MeshData& data) : data_(data), first_(static_cast<std::int64_t>(data.points.size())) {
+  explicit EdgeNodes(MeshData& data) : data_(data), first_(static_cast<std::int64_t>(data.points.size())) {
     node_.reserve(2 * data.tetrahedra.size());
   }
 
@@ -48,11 +49,6 @@ class Edges {
 
 using Triangle = std::array<std::int64_t, 3>;
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
 /// Triangles of lumen faces, sorted.
 std::vector<Triangle> lumen_triangles(const MeshData& data) {
   std::vector<Triangle> list;
@@ -63,7 +59,7 @@ std::vector<Triangle> lumen_triangles(const MeshData& data) {
   return list;
 }
 
-void add_twins(MeshData& data, const Edges& edges) {
+void add_twins(MeshData& data, const EdgeNodes& edges) {
   if (data.twins.empty()) return;
   std::unordered_map<std::int64_t, std::int64_t> host(data.twins.begin(), data.twins.end());
   const auto lumen = lumen_triangles(data);
@@ -87,7 +83,7 @@ void add_twins(MeshData& data, const Edges& edges) {
 
 void add_edge_nodes(MeshData& data) {
   assert(data.edges.empty());
-  Edges edges(data);
+  EdgeNodes edges(data);
   data.edges.resize(data.tetrahedra.size());
   for (std::size_t e = 0; e < data.tetrahedra.size(); ++e)
     for (std::size_t k = 0; k < 6; ++k)

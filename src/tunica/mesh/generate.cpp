@@ -16,15 +16,11 @@ namespace {
 
 using section::add_cut;
 using section::add_quadrilateral;
-using section::Edges;
 using section::extrude;
 using section::Index;
+using section::require_size;
 using section::Section;
-constexpr double pi = std::numbers::pi;
-
-void require(bool good, const char* where, const char* what) {
-  if (!good) throw InputError(where, what, "correct the sizes of the generated mesh");
-}
+using std::numbers::pi;
 
 /// Square core of m x m cells and `rings` of 4 m cells around it. The outermost ring takes the last 4 m point numbers,
 /// from the direction (-1, -1) counter-clockwise.
@@ -69,7 +65,7 @@ Section butterfly(double radius, int m, int rings) {
     }
     ring = next;
   }
-  Edges rim{"lumen_wall", {}};
+  section::Edges rim{"lumen_wall", {}};
   for (int i = 0; i < 4 * m; ++i) rim.edges.push_back({ring[i], ring[(i + 1) % (4 * m)]});
   s.boundary.push_back(std::move(rim));
   return s;
@@ -92,7 +88,7 @@ Section annulus(const Annulus& a) {
       s.points.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
   }
-  Edges inner{"wall_inner", {}}, outer{"wall_outer", {}};
+  section::Edges inner{"wall_inner", {}}, outer{"wall_outer", {}};
   const Index last = static_cast<Index>(a.cells_radial) * per_ring;
   for (int i = 0; i < a.cells_around; ++i) {
     const int j = (i + 1) % per_ring;
@@ -105,7 +101,7 @@ Section annulus(const Annulus& a) {
   }
   s.boundary = {std::move(inner), std::move(outer)};
   if (!a.closed) {
-    Edges begin{"symmetry_y", {}}, end{"symmetry_x", {}};
+    section::Edges begin{"symmetry_y", {}}, end{"symmetry_x", {}};
     for (int k = 0; k < a.cells_radial; ++k) {
       const Index low = static_cast<Index>(k) * per_ring, high = low + per_ring;
       begin.edges.push_back({low, high});
@@ -120,8 +116,8 @@ Section annulus(const Annulus& a) {
 }  // namespace
 
 MeshData box(int nx, int ny, int nz, const Vec3<double>& lengths, RegionKind kind) {
-  require(nx >= 1 && ny >= 1 && nz >= 1, "box", "the numbers of cells must be at least 1");
-  require(lengths[0] > 0 && lengths[1] > 0 && lengths[2] > 0, "box", "the lengths must be positive");
+  require_size(nx >= 1 && ny >= 1 && nz >= 1, "box", "the numbers of cells must be at least 1");
+  require_size(lengths[0] > 0 && lengths[1] > 0 && lengths[2] > 0, "box", "the lengths must be positive");
   Section s;
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i) s.points.push_back({lengths[0] * i / nx, lengths[1] * j / ny});
@@ -166,13 +162,13 @@ double polygon_radius(int corners) {
 }
 
 MeshData tube(const TubeSizes& z) {
-  require(z.radius > 0 && z.length > 0, "tube", "radius and length must be positive");
-  require(z.wall_thickness >= 0, "tube", "the wall thickness must not be negative");
-  require(z.cells_around >= 4 && z.cells_around % 4 == 0, "tube", "cells_around must be a positive multiple of 4");
-  require(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_through_wall >= 1, "tube",
-          "the numbers of cells must be at least 1");
+  require_size(z.radius > 0 && z.length > 0, "tube", "radius and length must be positive");
+  require_size(z.wall_thickness >= 0, "tube", "the wall thickness must not be negative");
+  require_size(z.cells_around >= 4 && z.cells_around % 4 == 0, "tube", "cells_around must be a positive multiple of 4");
+  require_size(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_through_wall >= 1, "tube",
+               "the numbers of cells must be at least 1");
   const auto objection = objection_to_counts(z);
-  require(objection.empty(), "tube", objection.c_str());
+  require_size(objection.empty(), "tube", objection.c_str());
   MeshData mesh;
   const auto lumen = butterfly(z.radius, z.cells_around / 4, z.cells_radial);
   extrude(mesh, lumen, z.length, z.cells_along, "lumen", RegionKind::lumen, "lumen_inlet", "lumen_outlet");
@@ -192,11 +188,11 @@ MeshData tube(const TubeSizes& z) {
 }
 
 MeshData thick_cylinder(const CylinderSizes& z, Sector sector) {
-  require(z.inner > 0 && z.outer > z.inner && z.length > 0, "thick cylinder",
-          "the radii must satisfy 0 < inner < outer and the length must be positive");
+  require_size(z.inner > 0 && z.outer > z.inner && z.length > 0, "thick cylinder",
+               "the radii must satisfy 0 < inner < outer and the length must be positive");
   const bool full = sector == Sector::full;
-  require(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_around >= (full ? 3 : 1), "thick cylinder",
-          "the numbers of cells must be at least 1, around a full circle 3");
+  require_size(z.cells_radial >= 1 && z.cells_along >= 1 && z.cells_around >= (full ? 3 : 1), "thick cylinder",
+               "the numbers of cells must be at least 1, around a full circle 3");
   MeshData mesh;
   auto section = annulus({z.inner, z.outer, 0, full ? 2 * pi : pi / 2, z.cells_radial, z.cells_around, full});
   if (!full)  // cos(pi / 2) is not exactly 0

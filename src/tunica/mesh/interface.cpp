@@ -149,11 +149,6 @@ std::vector<Index> match(const MeshData& data, const std::vector<Triangle>& lume
   return hosts;
 }
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
 /// Triangles of `a` that are not in `b`, both as sorted node triples.
 std::vector<Triangle> missing_in(const std::vector<Triangle>& a, const std::vector<Triangle>& b) {
   std::vector<Triangle> difference;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t longest_name = 100;
 /// Of the lumen and of the wall, beside `lumen_<opening>` and `wall_<opening>`.
-constexpr std::array<std::string_view, 3> taken = {"wall", "inner", "outer"};
+constexpr std::array<std::string_view, 3> names_taken = {"wall", "inner", "outer"};
 
 bool is_outside_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 bool is_letter_or_digit(char c) {
@@ -83,7 +83,7 @@ std::vector<Problem> check_names(const std::vector<PlacedName>& names, const std
 std::vector<Problem> check_opening_names(const std::vector<PlacedName>& names) {
   std::vector<Problem> problems = check_names(names, "opening");
   for (const auto& named : names)
-    if (std::find(taken.begin(), taken.end(), text::lower(named.name)) != taken.end())
+    if (std::find(names_taken.begin(), names_taken.end(), text::lower(named.name)) != names_taken.end())
       problems.push_back({text::printable(named.where, 400),
                           fmt::format("an opening cannot be called '{}': the mesh has the faces lumen_wall, wall_inner "
                                       "and wall_outer besides",

@@ -20,11 +20,6 @@ using Triangle = std::array<Index, 3>;
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
 /// Sides of an element, seen from outside.
 std::array<Triangle, 4> sides(const std::array<Index, 4>& t) {
   std::array<Triangle, 4> result;
@@ -35,7 +30,7 @@ std::array<Triangle, 4> sides(const std::array<Index, 4>& t) {
 
 using Owner = std::pair<Triangle, Index>;
 
-constexpr int lumen = 0, wall = 1;
+constexpr int in_lumen = 0, in_wall = 1;
 
 class Reassigner {
  public:
@@ -51,8 +46,8 @@ class Reassigner {
     take_faces();
     take_fields();
     for (Index m = 0; m < std::ssize(data_.points); ++m)
-      if (number_[lumen][at(m)] >= 0 && number_[wall][at(m)] >= 0)
-        new_.twins.emplace_back(number_[wall][at(m)], number_[lumen][at(m)]);
+      if (number_[in_lumen][at(m)] >= 0 && number_[in_wall][at(m)] >= 0)
+        new_.twins.emplace_back(number_[in_wall][at(m)], number_[in_lumen][at(m)]);
     return std::move(new_);
   }
 
@@ -77,11 +72,11 @@ class Reassigner {
     old_kind_.resize(data_.tetrahedra.size());
     for (const auto& region : data_.regions)
       for (auto e = region.first_element; e < region.end_element; ++e)
-        old_kind_[at(e)] = region.kind == RegionKind::lumen ? lumen : wall;
+        old_kind_[at(e)] = region.kind == RegionKind::lumen ? in_lumen : in_wall;
   }
   /// Of an element that is kept.
   int kept_kind(Index e) const {
-    return to_.regions[at(to_.of_element[at(e)])].second == RegionKind::lumen ? lumen : wall;
+    return to_.regions[at(to_.of_element[at(e)])].second == RegionKind::lumen ? in_lumen : in_wall;
   }
   /// -1: taken away.
   int new_kind(Index e) const { return to_.of_element[at(e)] < 0 ? -1 : kept_kind(e); }
@@ -107,7 +102,7 @@ class Reassigner {
       for (Index e = 0; e < std::ssize(data_.tetrahedra); ++e)
         if (to_.of_element[at(e)] == static_cast<std::int32_t>(r)) elements_.push_back(e);
       if (std::ssize(elements_) == first) continue;
-      region_[to_.regions[r].second == RegionKind::lumen ? lumen : wall] =
+      region_[to_.regions[r].second == RegionKind::lumen ? in_lumen : in_wall] =
           static_cast<std::int32_t>(new_.regions.size());
       new_.regions.push_back({to_.regions[r].first, to_.regions[r].second, first, std::ssize(elements_)});
     }
@@ -118,13 +113,13 @@ class Reassigner {
     for (auto& number : number_) number.assign(data_.points.size(), -1);
     for (const auto e : elements_)
       for (const auto m : merged(data_.tetrahedra[at(e)])) number_[kept_kind(e)][at(m)] = 0;
-    for (const int kind : {lumen, wall})
+    for (const int kind : {in_lumen, in_wall})
       for (Index m = 0; m < std::ssize(data_.points); ++m) {
         auto& number = number_[kind][at(m)];
         if (number < 0) continue;
         number = std::ssize(new_.points);
         new_.points.push_back(data_.points[at(m)]);
-        source_.push_back(kind == wall ? wall_node_[at(m)] : m);
+        source_.push_back(kind == in_wall ? wall_node_[at(m)] : m);
       }
     for (const auto e : elements_) {
       auto& t = new_.tetrahedra.emplace_back(merged(data_.tetrahedra[at(e)]));
@@ -155,7 +150,7 @@ class Reassigner {
   void take_faces() {
     std::set<Triangle> held[2];  // sides that belong to a face already
     for (const auto& face : data_.faces) {
-      const int kind = data_.regions[at(face.region)].kind == RegionKind::lumen ? lumen : wall;
+      const int kind = data_.regions[at(face.region)].kind == RegionKind::lumen ? in_lumen : in_wall;
       FaceData taken{face.name, region_[kind], {}, {}};
       for (const auto& triangle : face.triangles) {
         const auto t = merged(triangle);
@@ -183,7 +178,7 @@ class Reassigner {
     std::erase_if(new_.faces, [](const auto& face) { return face.triangles.empty(); });
   }
   FaceData& face_between(int kind) {
-    const auto& name = kind == lumen ? to_.lumen_face : to_.wall_face;
+    const auto& name = kind == in_lumen ? to_.lumen_face : to_.wall_face;
     const auto found =
         std::find_if(new_.faces.begin(), new_.faces.end(), [&](const auto& f) { return f.name == name; });
     if (found == new_.faces.end())

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "tunica/base/error.hpp"
+
 namespace tunica::mesh::section {
 
 namespace {
@@ -15,6 +17,10 @@ double cosine_at(const Section& s, Index corner, Index a, Index b) {
 }
 
 }  // namespace
+
+void require_size(bool good, const char* where, const char* what) {
+  if (!good) throw InputError(where, what, "correct the sizes of the generated mesh");
+}
 
 void add_cut(Section& s, Index a, Index b, Index c, Index d) {
   s.triangles.push_back({a, b, c});

@@ -24,6 +24,9 @@ struct Section {
   std::vector<Edges> boundary;
 };
 
+/// Throws InputError of the generated mesh `where`, and what is wrong with its sizes, unless they are good.
+void require_size(bool good, const char* where, const char* what);
+
 /// Adds the quadrilateral a b c d (counter-clockwise), cut from a to c.
 void add_cut(Section& s, Index a, Index b, Index c, Index d);
 

@@ -14,10 +14,7 @@ using section::Blocks;
 using section::graded;
 using section::Index;
 using section::Point;
-
-void require(bool good, const char* where, const char* what) {
-  if (!good) throw InputError(where, what, "correct the sizes of the generated mesh");
-}
+using section::require_size;
 
 /// Lines of the blocks: a square around the cylinder is left to rings of cells, all else is a grid.
 struct FlagGrid {
@@ -130,12 +127,12 @@ void pair_twins(MeshData& mesh, Index lumen_nodes) {
 }  // namespace
 
 MeshData flag_behind_cylinder(const FlagSizes& z) {
-  require(z.refinement >= 1 && z.layers >= 1, "flag", "the numbers of cells must be at least 1");
-  require(z.depth > 0 && z.radius > 0 && z.flag_thickness > 0 && z.flag_thickness < 2 * z.radius, "flag",
-          "the sizes must be positive, and the flag thinner than the cylinder");
+  require_size(z.refinement >= 1 && z.layers >= 1, "flag", "the numbers of cells must be at least 1");
+  require_size(z.depth > 0 && z.radius > 0 && z.flag_thickness > 0 && z.flag_thickness < 2 * z.radius, "flag",
+               "the sizes must be positive, and the flag thinner than the cylinder");
   const double side = 2 * z.radius;
-  require(z.x - side > 0 && z.x + side < z.tip && z.tip < z.length && z.y - side > 0 && z.y + side < z.height, "flag",
-          "a square of twice the cylinder's diameter and the flag have to fit into the channel");
+  require_size(z.x - side > 0 && z.x + side < z.tip && z.tip < z.length && z.y - side > 0 && z.y + side < z.height,
+               "flag", "a square of twice the cylinder's diameter and the flag have to fit into the channel");
   const FlagGrid g = flag_grid(z);
   const auto radial = graded(0, 1, g.rings, 2.0);
   MeshData mesh;
@@ -149,9 +146,9 @@ MeshData flag_behind_cylinder(const FlagSizes& z) {
 }
 
 MeshData backward_step(const StepSizes& z) {
-  require(z.cells_across >= 2 && z.cells_across % 2 == 0 && z.cells_along >= 1, "step",
-          "the numbers of cells must be at least 1, and even across");
-  require(z.length > 0 && z.height > 0 && z.depth > 0, "step", "the sizes must be positive");
+  require_size(z.cells_across >= 2 && z.cells_across % 2 == 0 && z.cells_along >= 1, "step",
+               "the numbers of cells must be at least 1, and even across");
+  require_size(z.length > 0 && z.height > 0 && z.depth > 0, "step", "the sizes must be positive");
   Blocks blocks;
   const double half = 0.5 * z.height;
   const auto x = graded(0, z.length, z.cells_along, 4.0);

@@ -11,8 +11,8 @@ namespace tunica::mesh_io {
 
 namespace {
 
-constexpr double smallest = 2e-3, largest = 20;               // m, of the diagonal
-constexpr double likely_smallest = 2e-2, likely_largest = 2;  // m
+constexpr double smallest_extent = 2e-3, largest_extent = 20;  // m, of the diagonal
+constexpr double likely_smallest = 2e-2, likely_largest = 2;   // m
 
 Vec3<double> box(std::span<const Vec3<double>> points) {
   if (points.empty()) return {{0, 0, 0}};
@@ -43,13 +43,13 @@ std::string size_text(std::span<const Vec3<double>> points) {
 
 void refuse_unlikely_size(std::span<const Vec3<double>> points, double metres_per_unit, const std::string& where) {
   const double diagonal = norm(box(points));
-  if (diagonal >= smallest && diagonal <= largest) return;
+  if (diagonal >= smallest_extent && diagonal <= largest_extent) return;
   const auto units = likely_units(diagonal / metres_per_unit);
   throw InputError(
       where,
       fmt::format("its size is {} by the declared length unit of {:g} m; vessels between {:g} mm and {:g} m "
                   "are possible",
-                  size_text(points), metres_per_unit, 1e3 * smallest, largest),
+                  size_text(points), metres_per_unit, 1e3 * smallest_extent, largest_extent),
       units.empty() ? "correct length_unit, or the coordinates in the file"
                     : fmt::format("correct length_unit, it may be {}", units));
 }

@@ -10,27 +10,27 @@
 #include <charconv>
 #include <vector>
 
+#include "tunica/mesh_io/xml_tags.hpp"
+
 namespace tunica::mesh_io {
 
 namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::string_view space = " \t\r\n";
-
 std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(space);
+  const auto first = text.find_first_not_of(xml_space);
   return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(space) - first + 1);
+                                         : text.substr(first, text.find_last_not_of(xml_space) - first + 1);
 }
 
 /// Calls `take(token)` until it returns false.
 template <class Take>
 void each_token(std::string_view text, const Take& take) {
-  for (auto at = text.find_first_not_of(space); at != std::string_view::npos;) {
-    const auto end = std::min(text.find_first_of(space, at), text.size());
+  for (auto at = text.find_first_not_of(xml_space); at != std::string_view::npos;) {
+    const auto end = std::min(text.find_first_of(xml_space, at), text.size());
     if (!take(text.substr(at, end - at))) return;
-    at = text.find_first_not_of(space, end);
+    at = text.find_first_not_of(xml_space, end);
   }
 }
 

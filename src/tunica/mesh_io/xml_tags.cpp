@@ -8,12 +8,6 @@
 
 namespace tunica::mesh_io {
 
-namespace {
-
-constexpr std::string_view space = " \t\r\n";
-
-}  // namespace
-
 std::string_view XmlTag::attribute(std::string_view wanted) const {
   for (const auto& [key, value] : attributes)
     if (key == wanted) return value;
@@ -36,14 +30,14 @@ std::size_t XmlTags::behind(std::string_view mark, std::size_t from) const {
   return found + mark.size();
 }
 
-void XmlTags::skip_space() { at_ = std::min(text_.find_first_not_of(space, at_), text_.size()); }
+void XmlTags::skip_space() { at_ = std::min(text_.find_first_not_of(xml_space, at_), text_.size()); }
 
 void XmlTags::read_attribute(XmlTag& tag) {
   const auto begin = at_;
   const auto equals = text_.find_first_of("=<>", at_);
   if (equals == std::string_view::npos || text_[equals] != '=') refuse(begin, "an attribute has no value");
   auto key = text_.substr(at_, equals - at_);
-  key = key.substr(0, key.find_last_not_of(space) + 1);
+  key = key.substr(0, key.find_last_not_of(xml_space) + 1);
   at_ = equals + 1;
   skip_space();
   if (at_ >= text_.size() || (text_[at_] != '"' && text_[at_] != '\''))

@@ -10,6 +10,9 @@
 
 namespace tunica::mesh_io {
 
+/// What XML counts as space.
+inline constexpr std::string_view xml_space = " \t\r\n";
+
 struct XmlTag {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< as written, entities unresolved

@@ -2,6 +2,7 @@
 // of the two it is. Both readers make the same value of the same problem.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -29,6 +30,9 @@ struct Entry {
   const Entry* peek(std::string_view wanted) const;
   std::vector<const Entry*> all(std::string_view wanted) const;
 };
+
+/// Bounds of a file: one with more is not meant as a case.
+inline constexpr std::size_t deepest_section = 32, most_entries = 1e5;
 
 /// What numbers and truth values look like: those of the program that reads the file.
 enum class Dialect { xml, inp, svsolver };

@@ -14,8 +14,6 @@ namespace tunica::peer_cases {
 
 namespace {
 
-constexpr std::size_t deepest = 32, most_entries = 1e5;
-
 /// Keys whose names in solver.xml are others than theirs with underscores, letters of the other case aside.
 constexpr auto other_names = std::to_array<std::pair<const char*, const char*>>({
     {"LS_type", "LS"},
@@ -98,7 +96,7 @@ class InpParser {
   }
 
   std::vector<Entry> statements(std::size_t depth) {
-    if (depth > deepest) refuse("has more than 32 sections in each other", "close sections with }");
+    if (depth > deepest_section) refuse("has more than 32 sections in each other", "close sections with }");
     std::vector<Entry> entries;
     for (skip(); at_ < text_.size() && peek() != '}'; skip()) entries.push_back(statement(depth));
     return entries;

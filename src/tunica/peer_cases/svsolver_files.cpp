@@ -16,20 +16,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* blanks = " \t\r";
+constexpr const char* blanks_of_line = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(blanks);
+  const auto first = text.find_first_not_of(blanks_of_line);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(blanks_of_line) - first + 1);
 }
 
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
-  for (auto at = text.find_first_not_of(blanks); at != std::string_view::npos;) {
-    const auto end = std::min(text.find_first_of(blanks, at), text.size());
+  for (auto at = text.find_first_not_of(blanks_of_line); at != std::string_view::npos;) {
+    const auto end = std::min(text.find_first_of(blanks_of_line, at), text.size());
     words.emplace_back(text.substr(at, end - at));
-    at = text.find_first_not_of(blanks, end);
+    at = text.find_first_not_of(blanks_of_line, end);
   }
   return words;
 }

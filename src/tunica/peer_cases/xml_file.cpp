@@ -14,9 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t deepest = 32;        ///< sections in sections
-constexpr int most_inclusions = 8;         ///< files in files
-constexpr std::size_t most_entries = 1e5;  ///< of one file
+constexpr int most_inclusions = 8;  ///< files in files
 
 Entry read_tree(const std::string& text, const fs::path& path, int inclusions);
 
@@ -27,7 +25,7 @@ class TreeBuilder {
       : parser_(parser), path_(std::move(path)), name_(path_.filename().string()), inclusions_(inclusions) {}
 
   void begin(const char* name, const char** attributes) {
-    if (stack_.size() > deepest) return fail("has more than 32 sections in each other", "correct the nesting");
+    if (stack_.size() > deepest_section) return fail("has more than 32 sections in each other", "correct the nesting");
     if (++count_ > most_entries) return fail("has more than 100 000 keys", "give the input file of one case");
     Entry entry{.key = name, .label = {}, .value = {}, .file = name_, .line = line()};
     for (int i = 0; attributes[i] != nullptr; i += 2)

@@ -40,11 +40,11 @@ std::size_t first_anew(const ChainRequest& request, const std::vector<const Stag
 
 /// First lines of a stage's case file. No absolute path: the folder may be moved.
 std::string head_of(const Chain& chain, const Stage& stage) {
-  const fs::path folder = fs::absolute(folder_of(chain, stage)).lexically_normal();
+  const fs::path folder = absolute_path(folder_of(chain, stage));
   return fmt::format(
       "# {}: made by `tunica run` from {}, and written anew by the next one.\n"
       "# By hand, in this folder: {}\n",
-      stage.what, fs::absolute(chain.file).lexically_normal().lexically_relative(folder).string(), stage.by_hand);
+      stage.what, absolute_path(chain.file).lexically_relative(folder).string(), stage.by_hand);
 }
 
 void remove_partial(const fs::path& folder, const Stage& stage) {

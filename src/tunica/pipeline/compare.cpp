@@ -48,7 +48,7 @@ fs::path write_variant(const Chain& chain, const std::string& name) {
   document.set("output.directory", ".");
   files::make_folder(folder);
   files::write_atomically(file, fmt::format("# {} of `tunica compare` {}\n", name, chain.file.filename().string()) +
-                                    config::commented_yaml(document, *case_file::Case::schema().description()));
+                                    config::commented_yaml(document, *description_of<case_file::Case>()));
   return file;
 }
 
@@ -77,7 +77,7 @@ void add_figures(std::vector<Line>& lines, const json& post, std::size_t law, st
           flap[key]);
 }
 
-std::vector<Line> read_figures(const Chain& chain, const std::vector<std::string>& names) {
+std::vector<Line> read_compared_figures(const Chain& chain, const std::vector<std::string>& names) {
   std::vector<Line> lines;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const fs::path file = chain.output / "compare" / names[k] / "post/post.json";
@@ -111,7 +111,7 @@ std::string plot_of(const std::vector<Line>& lines, const std::string& title, co
 }
 
 void write_comparison(const Chain& chain, const std::vector<std::string>& names) {
-  const auto lines = read_figures(chain, names);
+  const auto lines = read_compared_figures(chain, names);
   const fs::path folder = chain.output / "compare";
   write_compared_csv(folder / "compare.csv", names, lines);
   files::write_atomically(

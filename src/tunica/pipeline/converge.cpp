@@ -87,7 +87,7 @@ void write_level(const Study& study, const Level& level, config::Document docume
   files::make_folder(level.results);
   files::write_atomically(
       level.file, fmt::format("# {} of `tunica converge` {}\n", level.name, study.chain.file.filename().string()) +
-                      config::commented_yaml(document, *case_file::Case::schema().description()));
+                      config::commented_yaml(document, *description_of<case_file::Case>()));
 }
 
 Level level_of(const Chain& chain, const std::string& name) {
@@ -111,7 +111,7 @@ void check_request(const ConvergeRequest& request, const case_file::Case& c) {
 }
 
 /// On rank 0.
-Study plan_study(const ConvergeRequest& request) {
+Study plan_convergence(const ConvergeRequest& request) {
   std::vector<Problem> warnings;
   Study study{.chain = read_chain(request.chain.case_file, request.chain.directory, warnings),
               .base = {},
@@ -246,8 +246,6 @@ std::string share(const Row& row, double band) {
   return row.value == 0 || !std::isfinite(band) ? "–" : fmt::format("{:.1f} %", 100 * band / std::abs(row.value));
 }
 
-std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
-
 void write_csv(const fs::path& file, const Study& study, const std::vector<Row>& rows) {
   std::string csv = "figure,case";
   for (const auto* list : {&study.meshes, &study.steps})
@@ -297,10 +295,10 @@ void write_page(const fs::path& file, const Study& study, const std::vector<Row>
   for (const char* cell : {"mesh: order", "± by mesh", "step: order", "± by step"}) head.emplace_back(cell);
   std::vector<std::vector<std::string>> cells;
   for (const auto& row : rows) {
-    auto& line = cells.emplace_back(std::vector<std::string>{drawing::page::escaped(row.path), figure(row.value),
-                                                             figure(row.band()), share(row, row.band())});
+    auto& line = cells.emplace_back(std::vector<std::string>{drawing::page::escaped(row.path), figure_text(row.value),
+                                                             figure_text(row.band()), share(row, row.band())});
     for (const auto* values : {&row.meshes, &row.steps})
-      for (std::size_t k = 1; k < values->size(); ++k) line.push_back(figure((*values)[k]));
+      for (std::size_t k = 1; k < values->size(); ++k) line.push_back(figure_text((*values)[k]));
     for (const auto* e : {&row.of_mesh, &row.of_step}) {
       line.push_back(std::isfinite(e->order) ? fmt::format("{:.2f}, {}", e->order, e->text()) : e->text());
       line.push_back(share(row, e->band));
@@ -350,7 +348,7 @@ void write_results(Study& study, const ConvergeRequest& request, std::FILE* scre
 int converge(const ConvergeRequest& request, MPI_Comm comm, std::FILE* screen) {
   files::FolderLock lock;  // rank 0; the chains in it find it their own
   Study study = parallel::on_root(comm, [&] {
-    Study planned = plan_study(request);
+    Study planned = plan_convergence(request);
     lock = files::FolderLock(planned.chain.output);
     if (!lock.taken_over().empty()) std::fprintf(screen, "warning: %s\n", lock.taken_over().c_str());
     return planned;

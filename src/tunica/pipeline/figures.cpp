@@ -58,6 +58,8 @@ json read_json(const std::filesystem::path& file) {
   return read;
 }
 
+std::string figure_text(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
+
 nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }

@@ -22,6 +22,9 @@ nlohmann::json read_json(const std::filesystem::path& file);
 /// The number, or null where it is not finite, for which JSON has no word.
 nlohmann::ordered_json finite_or_null(double value);
 
+/// For readers, with four significant digits; "–" for one that is not finite.
+std::string figure_text(double value);
+
 /// Every number of post.json by its path, entries of lists by their name or their number from 1.
 std::map<std::string, double> read_figures(const std::filesystem::path& post_json);
 

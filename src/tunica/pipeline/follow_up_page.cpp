@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/base/units.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
@@ -15,11 +16,9 @@ namespace tunica::pipeline {
 namespace {
 
 namespace page = drawing::page;
-using geometry::mm;
+using unit::mm, unit::ml;
 
-constexpr double ml = 1e-6;
-
-std::string figure(double value, int digits = 1) {
+std::string with_decimals(double value, int digits = 1) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "–";
 }
 std::string change(double value, int digits = 1) {
@@ -78,9 +77,9 @@ std::string intervals_table(const FollowUpFindings& f) {
   for (const auto& i : f.intervals) {
     const auto most = std::max_element(i.diameter.begin(), i.diameter.end());
     const auto at = static_cast<std::size_t>(most - i.diameter.begin());
-    rows.push_back({page::escaped(i.name), figure(i.years, 2), change(*most / mm), change(*most / mm / i.years),
-                    figure(f.growth.stations[at] / mm, 0), std::to_string(i.folds.elements),
-                    std::to_string(i.folds.folded), figure(i.folds.least_jacobian, 2)});
+    rows.push_back({page::escaped(i.name), with_decimals(i.years, 2), change(*most / mm), change(*most / mm / i.years),
+                    with_decimals(f.growth.stations[at] / mm, 0), std::to_string(i.folds.elements),
+                    std::to_string(i.folds.folded), with_decimals(i.folds.least_jacobian, 2)});
   }
   return page::table({"interval", "years", "largest growth of the diameter [mm]", "[mm/year]", "at [mm]",
                       "elements mapped", "of these folded", "least Jacobian"},
@@ -97,7 +96,8 @@ std::string segments_table(const FollowUpFindings& f) {
   for (const auto& s : f.growth.segments) {
     auto& row = rows.emplace_back(std::vector<std::string>{page::escaped(s.from), page::escaped(s.to)});
     for (std::size_t k = 0; k < f.scans.size(); ++k)
-      row.insert(row.end(), {figure(s.length[k] / mm), figure(s.volume[k][0] / ml), figure(s.volume[k][1] / ml)});
+      row.insert(row.end(), {with_decimals(s.length[k] / mm), with_decimals(s.volume[k][0] / ml),
+                             with_decimals(s.volume[k][1] / ml)});
     for (std::size_t lumen = 0; lumen < 2; ++lumen)
       row.push_back(change((s.volume.back()[lumen] - s.volume.front()[lumen]) / ml / f.plan.scans.back().years));
   }
@@ -111,8 +111,8 @@ std::string tears_table(const FollowUpFindings& f) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t t = 0; t < f.growth.tears.size(); ++t) {
     const auto& tear = f.growth.tears[t];
-    auto& row = rows.emplace_back(std::vector<std::string>{std::to_string(t + 1), figure(tear.s / mm, 0)});
-    for (const double area : tear.area) row.push_back(figure(area / (mm * mm), 0));
+    auto& row = rows.emplace_back(std::vector<std::string>{std::to_string(t + 1), with_decimals(tear.s / mm, 0)});
+    for (const double area : tear.area) row.push_back(with_decimals(area / (mm * mm), 0));
   }
   return page::table(head, rows, "Tears; – where a scan has none there");
 }
@@ -125,7 +125,7 @@ std::string branches_table(const FollowUpFindings& f) {
     auto& row = rows.emplace_back(std::vector<std::string>{page::escaped(l.name)});
     for (const auto* scan : f.scans)
       for (const auto& other : scan->anatomy.landmarks)
-        if (other.name == l.name) row.push_back(figure(other.s / mm));
+        if (other.name == l.name) row.push_back(with_decimals(other.s / mm));
   }
   return page::table(head, rows, "Where branches leave, along the line of each scan");
 }
@@ -181,8 +181,8 @@ std::string scatter(const FollowUpFindings& f, const LoadText& load) {
 std::string correlations_table(const FollowUpFindings& f) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& c : f.correlations)
-    rows.push_back({page::escaped(c.interval), c.growth, c.load, figure(c.rank.value, 2),
-                    fmt::format("{} to {}", figure(c.rank.low, 2), figure(c.rank.high, 2)),
+    rows.push_back({page::escaped(c.interval), c.growth, c.load, with_decimals(c.rank.value, 2),
+                    fmt::format("{} to {}", with_decimals(c.rank.low, 2), with_decimals(c.rank.high, 2)),
                     std::to_string(c.rank.pairs)});
   return page::table(
       {"interval", "growth of", "beside", "rank correlation", "95 %", "stations"}, rows,

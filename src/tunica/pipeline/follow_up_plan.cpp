@@ -15,6 +15,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/pipeline/foresight.hpp"
 #include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
 
@@ -24,13 +25,6 @@ namespace fs = std::filesystem;
 using config::Document;
 using config::Setting;
 
-const config::Description& case_description() {
-  static const auto description = case_file::Case::schema().description();
-  return *description;
-}
-
-fs::path whole(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
-
 /// What is wrong with the case of a scan stands beside the name of the scan.
 void add(std::vector<Problem>& problems, const std::string& scan, const std::vector<Problem>& more) {
   for (const auto& p : more) problems.push_back({fmt::format("scans.{}: {}", scan, p.where), p.what, p.remedy});
@@ -38,27 +32,28 @@ void add(std::vector<Problem>& problems, const std::string& scan, const std::vec
 
 /// The common case with the geometry of a scan, in the scan's folder.
 std::string text_of(const FollowUpPlan& plan, const ScanCase& scan) {
-  const fs::path common = whole(*plan.settings.case_file);
+  const fs::path common = absolute_path(*plan.settings.case_file);
   Document document = case_file::case_document(config::read_text(common), common);
   if (!document.has("mesh.geometry"))
     throw InputError("case",
                      fmt::format("{} has no section `mesh` whose geometry a scan could replace", common.string()),
                      "give scans by their own `case`, or name a case with `mesh`");
-  config::move_paths(document, case_description(), common.parent_path(), scan.file.parent_path());
+  config::move_paths(document, *description_of<case_file::Case>(), common.parent_path(), scan.file.parent_path());
   for (const auto& stage : stages())
     if (*stage.output != 0) document.remove(stage.output);
   document.remove("compare");
   const Document given(config::read_text(plan.file), plan.file.string());
   Document moved;
   moved.set("mesh.geometry", given.part(fmt::format("scans.{}.geometry", scan.name)));
-  config::move_paths(moved, case_description(), whole(plan.file).parent_path(), scan.file.parent_path());
+  config::move_paths(moved, *description_of<case_file::Case>(), absolute_path(plan.file).parent_path(),
+                     scan.file.parent_path());
   document.remove("mesh.geometry");
   document.set("mesh.geometry", moved.part("mesh.geometry"));
   const std::string title = document.text("title");
   document.set("title", fmt::format("{}{}{}, {}", title, title.empty() ? "" : ": ", scan.name, scan.date));
   document.set("output.directory", ".");
   return fmt::format("# {} of `tunica follow-up` {}\n", scan.name, plan.file.filename().string()) +
-         config::commented_yaml(document, case_description());
+         config::commented_yaml(document, *description_of<case_file::Case>());
 }
 
 /// A case as far as its file tells.
@@ -113,11 +108,6 @@ std::vector<Problem> other_openings(const ReadCase& first, const ReadCase& other
   return problems;
 }
 
-bool holds(const fs::path& file, const std::string& text) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == text;
-}
-
 void check_case(const ReadCase& c, bool run, std::vector<Problem>& problems) {
   if (!c.settings.mesh && !c.settings.meshes.has_lumen())
     problems.push_back({"meshes", "has no lumen", "name the mesh of the blood as well: growth is that of its edge"});
@@ -129,13 +119,14 @@ void check_case(const ReadCase& c, bool run, std::vector<Problem>& problems) {
 
 FollowUpPlan plan_follow_up(const fs::path& file, const std::optional<fs::path>& output, bool run) {
   FollowUpPlan plan{case_file::read_follow_up_case(file).value, file, {}, {}};
-  plan.output = whole(output.value_or(plan.settings.output));
+  plan.output = absolute_path(output.value_or(plan.settings.output));
   std::vector<Problem> problems;
   std::vector<ReadCase> cases;
   const int first_day = *case_file::day_of(plan.settings.scans.front().second.date);
   for (const auto& [name, scan] : plan.settings.scans) {
     const double years = (*case_file::day_of(scan.date) - first_day) / case_file::days_in_a_year;
-    ScanCase one{name, scan.date, years, scan.case_file ? whole(*scan.case_file) : plan.output / name / "case.yaml"};
+    ScanCase one{name, scan.date, years,
+                 scan.case_file ? absolute_path(*scan.case_file) : plan.output / name / "case.yaml"};
     try {
       if (scan.geometry) one.text = text_of(plan, one);
       cases.push_back(read(one));
@@ -162,7 +153,7 @@ void write_and_check_cases(const FollowUpPlan& plan) {
   for (const auto& scan : plan.scans) {
     if (!scan.text.empty()) {
       files::make_folder(scan.file.parent_path());
-      if (!holds(scan.file, scan.text)) files::write_atomically(scan.file, scan.text);
+      if (!files::holds(scan.file, scan.text)) files::write_atomically(scan.file, scan.text);
     }
     std::vector<Problem> warnings;
     try {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tunica/base/units.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/atomic_file.hpp"
@@ -17,10 +18,8 @@ namespace tunica::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::degree, geometry::mm;
 using nlohmann::ordered_json;
-
-constexpr double mm2 = mm * mm, ml = 1e-6;
+using unit::degree, unit::ml, unit::mm, unit::mm2;
 
 double mmhg() { return config::unit_factor("mmHg", config::dimension::pressure); }
 

@@ -56,8 +56,7 @@ void compare(const Stage& stage, const fs::path& folder, Plan& p) {
 
 /// The files of the stages, which are YAML, name the case file from their folders and these from its own.
 void check_paths(const Chain& chain, std::vector<Problem>& problems) {
-  const fs::path file = fs::absolute(chain.file).lexically_normal(), folder = file.parent_path(),
-                 output = fs::absolute(chain.output).lexically_normal();
+  const fs::path file = absolute_path(chain.file), folder = file.parent_path(), output = absolute_path(chain.output);
   for (const auto& path : {file.lexically_relative(output), output.lexically_relative(folder)})
     if (text::valid_utf8(path.string()) < path.string().size())
       problems.push_back({text::printable(path.string(), 400),

@@ -9,6 +9,7 @@
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/base/limits.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/mesh/boundary.hpp"
@@ -21,7 +22,7 @@ namespace tunica::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 /// Of stations that tell the elements of the aorta from those of branches [m].
 constexpr double fine_spacing = 1e-3;
 /// Share of the radius in a direction from which on the edge of the lumens is that of the wall, and no flap.

@@ -6,6 +6,7 @@
 
 #include "tunica/drawing/page.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/pipeline/figures.hpp"
 
 namespace tunica::pipeline {
 
@@ -30,7 +31,7 @@ std::string compared_table(const std::vector<std::string>& names, const std::vec
   std::vector<std::vector<std::string>> rows;
   for (const auto& line : lines) {
     auto& cells = rows.emplace_back(std::vector<std::string>{page::escaped(line.what), line.unit});
-    for (const double v : line.values) cells.push_back(std::isfinite(v) ? fmt::format("{:.4g}", v) : "–");
+    for (const double v : line.values) cells.push_back(figure_text(v));
   }
   return page::table(head, rows);
 }

@@ -17,6 +17,11 @@
 
 namespace tunica::pipeline {
 
+/// Without . and .. in it.
+inline std::filesystem::path absolute_path(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
+
 /// The whole case file.
 struct Chain {
   std::filesystem::path file;

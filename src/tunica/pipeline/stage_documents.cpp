@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using config::Document;
 
 std::string path_to(const fs::path& file, const fs::path& folder) {
-  return fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal()).string();
+  return absolute_path(file).lexically_relative(absolute_path(folder)).string();
 }
 
 /// The whole case with paths that count from a stage's folder.

@@ -7,6 +7,7 @@
 
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
+#include "tunica/pipeline/figures.hpp"
 
 namespace tunica::pipeline {
 
@@ -15,8 +16,6 @@ namespace {
 namespace page = drawing::page;
 
 constexpr std::size_t most_plots = 120;
-
-std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
 
 struct DesignText {
   std::string operator()(const case_file::GridDesign&) const { return "grid"; }
@@ -44,7 +43,7 @@ std::string points_table(const StudyPlan& plan, const std::vector<Quantity>& qua
     for (std::size_t d = 0; d < plan.axes.size(); ++d)
       row.push_back(plan.axes[d].numeric ? fmt::format("{:.6g}", plan.points[k].numbers[d])
                                          : page::escaped(plan.points[k].values[d]));
-    for (const auto& q : quantities) row.push_back(figure(q.values[k]));
+    for (const auto& q : quantities) row.push_back(figure_text(q.values[k]));
     row.push_back(results[k].state.status);
     row.push_back(fmt::format("{:.1f}", results[k].seconds));
     row.push_back(page::escaped(results[k].state.message));
@@ -70,7 +69,7 @@ std::string sensitivities_table(const StudyPlan& plan, const std::vector<Quantit
     auto& row = rows.emplace_back(std::vector<std::string>{page::escaped(q.path)});
     for (std::size_t d = 0; d < plan.axes.size(); ++d) {
       if (!indices) {
-        row.push_back(figure(q.rank_correlation[d]));
+        row.push_back(figure_text(q.rank_correlation[d]));
         continue;
       }
       const auto& index = q.indices->of[d];

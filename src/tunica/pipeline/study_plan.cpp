@@ -15,6 +15,7 @@
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
 
@@ -23,11 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using config::Document;
 using config::Setting;
-
-const config::Description& case_description() {
-  static const auto description = case_file::Case::schema().description();
-  return *description;
-}
 
 /// Is it the key, or one below it?
 bool lies_under(const std::string& path, const std::string& key) { return path == key || path.starts_with(key + "."); }
@@ -129,14 +125,14 @@ void share_stages(StudyPlan& plan, const std::vector<std::vector<Setting>>& sett
 
 std::string text_of(const StudyPlan& plan, std::size_t point, Document document) {
   const auto& c = plan.cases[point];
-  config::move_paths(document, case_description(), plan.study.case_file.parent_path(), c.folder);
+  config::move_paths(document, *description_of<case_file::Case>(), plan.study.case_file.parent_path(), c.folder);
   document.set("output.directory", ".");
   for (const auto& stage : stages())
     if (const auto at = c.shared.find(stage.name); at != c.shared.end())
       document.set(stage.output, at->second.lexically_relative(c.folder).string());
   return fmt::format("# Point {} of `tunica study` {}: {}\n", point + 1, plan.file.filename().string(),
                      plan.points[point].text(plan.axes)) +
-         config::commented_yaml(document, case_description());
+         config::commented_yaml(document, *description_of<case_file::Case>());
 }
 
 void make_cases(StudyPlan& plan) {
@@ -169,11 +165,6 @@ void make_cases(StudyPlan& plan) {
   for (std::size_t k = 0; k < plan.points.size(); ++k) plan.cases[k].text = text_of(plan, k, documents[k]);
 }
 
-bool holds(const fs::path& file, const std::string& text) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == text;
-}
-
 }  // namespace
 
 fs::path PointCase::folder_of_stage(const std::string& stage) const {
@@ -190,8 +181,8 @@ StudyPlan plan_study(const fs::path& file, const std::optional<fs::path>& output
   plan.study = case_file::read_study_case(file).value;
   plan.file = file;
   // Paths between folders are found by their names, which takes all of them from one place.
-  plan.study.case_file = fs::absolute(plan.study.case_file).lexically_normal();
-  plan.output = fs::absolute(output.value_or(plan.study.output)).lexically_normal();
+  plan.study.case_file = absolute_path(plan.study.case_file);
+  plan.output = absolute_path(output.value_or(plan.study.output));
   auto made = case_file::study_points(plan.study);
   plan.axes = std::move(made.axes);
   plan.points = std::move(made.points);
@@ -204,7 +195,7 @@ void write_and_check_cases(const StudyPlan& plan, const std::vector<std::size_t>
   for (const auto k : points) {
     const auto& c = plan.cases[k];
     files::make_folder(c.folder);
-    if (!holds(c.file, c.text)) files::write_atomically(c.file, c.text);
+    if (!files::holds(c.file, c.text)) files::write_atomically(c.file, c.text);
     std::vector<Problem> warnings;
     try {
       read_chain(c.file, std::nullopt, warnings);

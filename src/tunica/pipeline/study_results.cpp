@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tunica/base/limits.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/atomic_file.hpp"
 #include "tunica/files/csv_file.hpp"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 /// A state belongs to the case that it was written for.
 std::string fingerprint(const PointCase& point) {

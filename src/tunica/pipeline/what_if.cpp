@@ -28,11 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double section_spacing = 4e-3;  ///< m
 
-bool holds(const fs::path& file, const std::string& text) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == text;
-}
-
 /// Whether lumen and wall meet in the mesh of the case, and by which faces.
 struct Between {
   std::string lumen, wall;
@@ -101,7 +96,7 @@ class WhatIfRun {
         files::make_folder(folder);
         if (plan_.settings.variants[k].second.changes_mesh()) make_mesh(k, *scan);
         const std::string text = variant_text(plan_, k, *chain_);
-        if (!holds(file, text)) files::write_atomically(file, text);
+        if (!files::holds(file, text)) files::write_atomically(file, text);
         files_.push_back(file.string());
       }
     });

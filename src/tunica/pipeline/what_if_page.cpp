@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "tunica/base/limits.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/atomic_file.hpp"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 namespace page = drawing::page;
 using nlohmann::json;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 /// The case and its variants, by name.
 struct Computed {

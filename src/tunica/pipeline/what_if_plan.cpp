@@ -19,13 +19,6 @@ namespace fs = std::filesystem;
 using case_file::WhatIf;
 using config::Document;
 
-const config::Description& case_description() {
-  static const auto description = case_file::Case::schema().description();
-  return *description;
-}
-
-fs::path whole(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
-
 // --- loads ----------------------------------------------------------------------------------------------------------
 
 /// "0.8 s" by a factor; a unit alone counts as one of it.
@@ -133,8 +126,8 @@ Document on_changed_mesh(const Chain& chain, const fs::path& folder) {
 WhatIfPlan plan_what_if(const fs::path& file, const std::optional<fs::path>& output) {
   WhatIfPlan plan{
       case_file::read_what_if_case(file).value, Document(config::read_text(file), file.string()), file, {}, {}};
-  plan.case_file = whole(plan.settings.case_file);
-  plan.output = whole(output.value_or(plan.settings.output));
+  plan.case_file = absolute_path(plan.settings.case_file);
+  plan.output = absolute_path(output.value_or(plan.settings.output));
   std::vector<Problem> warnings, problems;
   const Chain chain = read_chain(plan.case_file, std::nullopt, warnings);
   if (!chain.settings.post)
@@ -177,7 +170,7 @@ std::string variant_text(const WhatIfPlan& plan, std::size_t k, const Chain& cha
   change(document, plan, k, faces_with_flow(chain.settings));
   document.set("output.directory", ".");
   return fmt::format("# {} of `tunica what-if` {}\n", name, plan.file.filename().string()) +
-         config::commented_yaml(document, case_description());
+         config::commented_yaml(document, *description_of<case_file::Case>());
 }
 
 }  // namespace tunica::pipeline

@@ -12,6 +12,7 @@
 #include "tunica/analysis/cycle.hpp"
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/artifacts/load_mesh.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/geometry/thickness.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
@@ -25,30 +26,29 @@ namespace {
 
 using mesh::MeshData;
 using mesh::RegionKind;
-using nlohmann::json;
 using Names = std::vector<std::string>;
 using viewer::PointSource;
 using viewer::Quantity;
 using viewer::Skeleton;
 
-constexpr double mm = 1e-3, mmHg = 133.322387415, kPa = 1e3;
 /// Sections across the aorta that a page holds at most, besides those at tears.
 constexpr std::size_t most_sections = 12;
 
-Vec3<double> place_of(const json& centre_mm) {
-  return {{mm * centre_mm.at(0).get<double>(), mm * centre_mm.at(1).get<double>(), mm * centre_mm.at(2).get<double>()}};
+Vec3<double> place_of(const nlohmann::json& centre_mm) {
+  return {{unit::mm * centre_mm.at(0).get<double>(), unit::mm * centre_mm.at(1).get<double>(),
+           unit::mm * centre_mm.at(2).get<double>()}};
 }
 
 // --- planes and labels ----------------------------------------------------------------------------------------------
 
-double area_of(const json& station) {
+double area_of(const nlohmann::json& station) {
   double area = 0;
   for (const char* lumen : {"true_lumen", "false_lumen"})
-    if (station.contains(lumen)) area += station[lumen].at("area").at("mean_mm2").get<double>() * mm * mm;
+    if (station.contains(lumen)) area += station[lumen].at("area").at("mean_mm2").get<double>() * unit::mm * unit::mm;
   return area;
 }
 
-std::vector<viewer::CutPlane> planes_of(const json& post, viewer::Beat& beat) {
+std::vector<viewer::CutPlane> planes_of(const nlohmann::json& post, viewer::Beat& beat) {
   std::vector<viewer::CutPlane> planes;
   if (!post.is_object() || !post.contains("stations")) return planes;
   std::vector<Vec3<double>> centres;
@@ -63,7 +63,7 @@ std::vector<viewer::CutPlane> planes_of(const json& post, viewer::Beat& beat) {
   for (std::size_t s = 0; s < centres.size(); s += every) {
     const auto& station = post["stations"][s];
     // A section that is not round reaches farther than a circle of its area.
-    const double radius = 1.6 * std::sqrt(area_of(station) / M_PI) + 5 * mm;
+    const double radius = 1.6 * std::sqrt(area_of(station) / M_PI) + 5 * unit::mm;
     planes.push_back({fmt::format("{:.0f} mm from the inlet", station.at("distance_mm").get<double>()), centres[s],
                       direction_at(centres, s), radius});
   }
@@ -71,7 +71,7 @@ std::vector<viewer::CutPlane> planes_of(const json& post, viewer::Beat& beat) {
 }
 
 /// Mean of the lumen's nodes on either side of the flap, in the middle of where both lumens are.
-void add_lumen_labels(const MeshData& data, const json& post, viewer::Beat& beat) {
+void add_lumen_labels(const MeshData& data, const nlohmann::json& post, viewer::Beat& beat) {
   const auto side = std::find_if(data.node_fields.begin(), data.node_fields.end(),
                                  [](const auto& f) { return f.name == "lumen_side"; });
   if (side == data.node_fields.end() || !post.is_object() || !post.contains("stations")) return;
@@ -85,7 +85,7 @@ void add_lumen_labels(const MeshData& data, const json& post, viewer::Beat& beat
   std::array<double, 2> count{};
   for (std::size_t n = 0; n < data.points.size(); ++n) {
     const double value = side->values[n];
-    if (std::isnan(value) || norm(data.points[n] - middle) > 25 * mm) continue;
+    if (std::isnan(value) || norm(data.points[n] - middle) > 25 * unit::mm) continue;
     const std::size_t lumen = value > 0 ? 0 : 1;
     sum[lumen] = sum[lumen] + data.points[n];
     count[lumen] += 1;
@@ -101,7 +101,7 @@ std::string shown_name(std::string name) {
   return name;
 }
 
-void add_labels(const MeshData& data, const Skeleton& surface, const json& post, viewer::Beat& beat) {
+void add_labels(const MeshData& data, const Skeleton& surface, const nlohmann::json& post, viewer::Beat& beat) {
   for (const auto& group : surface.body.groups) {
     if (group.kind != "opening" || group.count == 0) continue;
     Vec3<double> sum{};
@@ -216,13 +216,13 @@ class Collector {
   }
 
   void keep(const analysis::FieldFrame& frame) {
-    for (auto& d : displacement_) d.add(frame.displacement, mm);
+    for (auto& d : displacement_) d.add(frame.displacement, unit::mm);
     std::vector<std::optional<std::vector<double>>> nodal(stresses_.size());
     for (auto& [q, filled] : stress_) {
       if (!nodal[q]) nodal[q] = mean_(frame.stress[q]);
-      filled.add(*nodal[q], kPa);
+      filled.add(*nodal[q], unit::kPa);
     }
-    for (auto& p : pressure_) p.add(frame.pressure, mmHg);
+    for (auto& p : pressure_) p.add(frame.pressure, unit::mmHg);
     if (shear_) shear_->add_size(frame.wall_shear, 1);
     if (velocity_) velocity_->add_size(frame.velocity, 1);
   }
@@ -330,7 +330,7 @@ geometry::TriangleSurface surfaces_of_wall(const viewer::Body& body) {
 
 /// At the points of the wall's surfaces; on edges of quadratic elements the mean of their ends.
 void add_thickness(Skeleton& surface) {
-  constexpr double most = 10 * mm;
+  constexpr double most = 10 * unit::mm;
   if (surface.wall_end == 0) return;
   const auto& body = surface.body;
   const geometry::TriangleTree tree(surfaces_of_wall(body));
@@ -342,7 +342,7 @@ void add_thickness(Skeleton& surface) {
   auto& values = q.frames[0];
   for (std::size_t i = 0; i < surface.wall_end; ++i)
     if (!between[i])
-      values[i] = static_cast<float>(geometry::thickness_at(tree, body.points[i], normals[i], most) / mm);
+      values[i] = static_cast<float>(geometry::thickness_at(tree, body.points[i], normals[i], most) / unit::mm);
   for (const auto& joined : body.joined)
     for (std::size_t e = 0; e < 3; ++e)
       if (const auto point = joined.between[e]; point < surface.wall_end)
@@ -357,7 +357,7 @@ struct Window {
 };
 
 /// Frames of the window of the figures, else all.
-Window window_of(const std::vector<double>& times, const json& post) {
+Window window_of(const std::vector<double>& times, const nlohmann::json& post) {
   if (!post.is_object() || !post.contains("window")) return {0, times.size()};
   const double from = post["window"].at("from_s").get<double>(), until = post["window"].at("until_s").get<double>();
   const double margin = 1e-6 * (until - from);
@@ -416,7 +416,7 @@ viewer::FaceRoles roles_of(const case_file::Case& c) {
   return roles;
 }
 
-void read_frames(analysis::FieldSeries& series, const json& post, Collector& collector, viewer::Beat& beat) {
+void read_frames(analysis::FieldSeries& series, const nlohmann::json& post, Collector& collector, viewer::Beat& beat) {
   const auto window = window_of(series.times(), post);
   const std::vector<double> times(series.times().begin() + static_cast<std::ptrdiff_t>(window.first),
                                   series.times().begin() + static_cast<std::ptrdiff_t>(window.first + window.count));

@@ -31,17 +31,17 @@ struct Spot {
 };
 
 /// Where the triangles of a face of the wall lie. Rings at the ends of the wall touch the blood with some of them.
-enum class Side { inner, outer, ring };
+enum class FibreSide { inner, outer, ring };
 
-Side side_of(const mesh::FaceData& face, const std::vector<char>& at_blood) {
+FibreSide side_of(const mesh::FaceData& face, const std::vector<char>& at_blood) {
   std::size_t touching = 0, all = 0;
   for (const auto& t : face.triangles) {
     const auto blood = std::count_if(t.begin(), t.end(), [&](auto n) { return at_blood[static_cast<std::size_t>(n)]; });
     touching += blood > 0;
     all += blood == 3;
   }
-  if (all == face.triangles.size()) return Side::inner;
-  return 10 * touching > face.triangles.size() ? Side::ring : Side::outer;
+  if (all == face.triangles.size()) return FibreSide::inner;
+  return 10 * touching > face.triangles.size() ? FibreSide::ring : FibreSide::outer;
 }
 
 /// Triangles of the wall's outside and of its interface with the blood.
@@ -52,12 +52,12 @@ std::vector<Spot> spots_of(const MeshData& data) {
   const mesh::Boundary boundary(data.tetrahedra, std::ssize(data.points), "the mesh");
   for (const auto& face : data.faces) {
     if (data.regions[static_cast<std::size_t>(face.region)].kind != RegionKind::wall) continue;
-    const Side side = side_of(face, at_blood);
-    if (side == Side::ring) continue;
+    const FibreSide side = side_of(face, at_blood);
+    if (side == FibreSide::ring) continue;
     for (const auto& t : face.triangles) {
       const auto element = boundary.triangles()[static_cast<std::size_t>(boundary.find(t))].element;
-      spots.push_back({element, &viewer::region_of(data, element), side == Side::inner, mesh::centroid(data.points, t),
-                       norm(mesh::area_vector(data.points, t))});
+      spots.push_back({element, &viewer::region_of(data, element), side == FibreSide::inner,
+                       mesh::centroid(data.points, t), norm(mesh::area_vector(data.points, t))});
     }
   }
   return spots;

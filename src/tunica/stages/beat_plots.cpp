@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tunica/artifacts/histories.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/files/csv_file.hpp"
 #include "tunica/stages/beat.hpp"
@@ -18,11 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 namespace dimension = config::dimension;
 using files::CsvColumns;
-using nlohmann::json;
 using viewer::Curve;
 using viewer::Plot;
 
-constexpr double ml = 1e-6, mmHg = 133.322387415;
 constexpr std::size_t most_stations = 6;  ///< curves of stations in one plot
 
 std::optional<CsvColumns> table(const fs::path& folder, const char* name) {
@@ -42,7 +41,7 @@ struct Opening {
 };
 
 /// Those of the figures; without figures all faces that blood passes, and the inlet is where most of it comes in.
-std::vector<Opening> openings_of(const json& post, const CsvColumns& faces) {
+std::vector<Opening> openings_of(const nlohmann::json& post, const CsvColumns& faces) {
   std::vector<Opening> openings;
   if (post.is_object() && post.contains("openings")) {
     for (const auto& o : post["openings"]) openings.push_back({o.at("name"), o.value("inlet", false)});
@@ -67,7 +66,7 @@ std::vector<Opening> openings_of(const json& post, const CsvColumns& faces) {
   return passed;
 }
 
-void keep_window(const json& post, const std::vector<double>& times, Curve& curve) {
+void keep_window(const nlohmann::json& post, const std::vector<double>& times, Curve& curve) {
   const bool all = !post.is_object() || !post.contains("window");
   const double from = all ? times.front() : post["window"].at("from_s").get<double>(),
                until = all ? times.back() : post["window"].at("until_s").get<double>();
@@ -79,7 +78,7 @@ void keep_window(const json& post, const std::vector<double>& times, Curve& curv
 }
 
 /// Flow is positive the way that blood goes: into the vessel at the inlet, out of it elsewhere.
-void add_openings(const fs::path& results, const json& post, std::vector<Plot>& plots) {
+void add_openings(const fs::path& results, const nlohmann::json& post, std::vector<Plot>& plots) {
   const auto faces = table(results, "faces.csv");
   if (!faces || faces->columns.empty() || faces->columns[0].size() < 2) return;
   const auto times = artifacts::si_column(*faces, "time", dimension::time);
@@ -91,8 +90,8 @@ void add_openings(const fs::path& results, const json& post, std::vector<Plot>& 
     Curve p{
         shown(name), {}, artifacts::si_column(*faces, name + " pressure", dimension::pressure), static_cast<int>(k)},
         q{shown(name), {}, artifacts::si_column(*faces, name + " flow", dimension::volume_flow), static_cast<int>(k)};
-    for (auto& v : p.y) v /= mmHg;
-    for (auto& v : q.y) v *= (inlet ? -1 : 1) / ml;
+    for (auto& v : p.y) v /= unit::mmHg;
+    for (auto& v : q.y) v *= (inlet ? -1 : 1) / unit::ml;
     keep_window(post, times, p);
     keep_window(post, times, q);
     pressure.curves.push_back(std::move(p));

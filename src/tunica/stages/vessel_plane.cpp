@@ -4,11 +4,7 @@
 
 namespace tunica::stages {
 
-namespace {
-
-Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
-
-}  // namespace
+namespace {}  // namespace
 
 // By power iteration on the matrix that turns the order of the eigenvalues of the spread round.
 std::optional<VesselPlane> plane_of(const std::vector<Vec3<double>>& stations) {
@@ -24,14 +20,14 @@ std::optional<VesselPlane> plane_of(const std::vector<Vec3<double>>& stations) {
     trace += dot(d, d);
   }
   for (int i = 0; i < 3; ++i) spread(i, i) += trace;
-  Vec3<double> normal = unit(Vec3<double>{{0.6, 0.7, 0.4}});
-  for (int k = 0; k < 200; ++k) normal = unit(spread * normal);
+  Vec3<double> normal = normalised(Vec3<double>{{0.6, 0.7, 0.4}});
+  for (int k = 0; k < 200; ++k) normal = normalised(spread * normal);
   return VesselPlane{middle, normal};
 }
 
 Vec3<double> direction_at(const std::vector<Vec3<double>>& stations, std::size_t station) {
   const std::size_t from = station == 0 ? 0 : station - 1, to = std::min(stations.size() - 1, station + 1);
-  return unit(stations[to] - stations[from]);
+  return normalised(stations[to] - stations[from]);
 }
 
 }  // namespace tunica::stages

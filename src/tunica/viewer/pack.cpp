@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/drawing/page.hpp"
 
 namespace tunica::viewer {
@@ -16,7 +17,7 @@ namespace tunica::viewer {
 namespace {
 
 using nlohmann::json;
-constexpr double mm = 1e-3;
+using unit::mm;
 constexpr double most_of_uint16 = 65535;
 
 /// Arrays of whole numbers one after the other, each as differences of neighbours, small ones with small bytes, all

@@ -12,8 +12,6 @@ namespace {
 
 std::string text(const Vec3<double>& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0], v[1], v[2]); }
 
-Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
-
 }  // namespace
 
 FibreFrame orthonormal_frame(const Vec3<double>& e1, const Vec3<double>& e2, const std::string& where) {
@@ -21,19 +19,19 @@ FibreFrame orthonormal_frame(const Vec3<double>& e1, const Vec3<double>& e2, con
   if (!(area > 1e-3 * size) || !std::isfinite(size))
     throw InputError(where, fmt::format("e1 = {} and e2 = {} span no plane", text(e1), text(e2)),
                      "give two vectors that are not parallel: e1 circumferential, e2 longitudinal");
-  const Vec3<double> first = unit(e1), second = unit(e2 - dot(first, e2) * first);
+  const Vec3<double> first = normalised(e1), second = normalised(e2 - dot(first, e2) * first);
   return {first, second, cross(first, second)};
 }
 
 FibreFrame ConstantFrame::frame() const { return orthonormal_frame(e1, e2, "wall.fibre_frame.constant"); }
 
 FibreFrame CylindricalFrame::at(const Vec3<double>& point) const {
-  const Vec3<double> along = unit(axis), from = point - origin, away = from - dot(along, from) * along;
+  const Vec3<double> along = normalised(axis), from = point - origin, away = from - dot(along, from) * along;
   if (!(norm(away) > 1e-9 * norm(from)))
     throw InputError("wall.fibre_frame.cylindrical",
                      fmt::format("the point {} m lies on the axis, where no direction is radial", text(point)),
                      "choose origin and axis along the middle of the vessel");
-  const Vec3<double> radial = unit(away);
+  const Vec3<double> radial = normalised(away);
   return {cross(along, radial), along, radial};
 }
 

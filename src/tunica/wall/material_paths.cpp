@@ -13,11 +13,9 @@ namespace tunica::wall {
 
 namespace {
 
-constexpr double tolerance = 1e-11;  // of stresses relative to the largest, of volumes relative to the volume
+constexpr double balance_tolerance = 1e-11;  // of stresses relative to the largest, of volumes relative to the volume
 constexpr int most_iterations = 40, most_halvings = 10, most_unknowns = 6;
 constexpr double smallest_step = 1.0 / 256.0;  // of the way from the start to the target
-
-double size(const Symmetric<double>& a) { return std::sqrt(double_dot(a, a)); }
 
 /// The state at F with the pressure p, whether or not p belongs to J.
 PathPoint state_at(const Law& law, const Volumetric& volumetric, const Mat3<double>& F, double pressure) {
@@ -102,7 +100,7 @@ class Equilibrium {
     std::vector<double> residuals;
     for (int k = 0; k <= most_iterations && at.valid; ++k) {
       residuals.push_back(residual = at.norm);
-      if (at.norm <= tolerance) {
+      if (at.norm <= balance_tolerance) {
         at.point.residuals = std::move(residuals);
         return at.point;
       }
@@ -146,7 +144,7 @@ class Equilibrium {
     t.C = C;
     t.point = state_at(law_, volumetric_, rotation_ * *U * transpose(rotation_), pressure);
     t.volume = volumetric_.unit_pressure(t.point.state.J) + pressure * volumetric_.compressibility();
-    const double scale = std::max(modulus_, size(t.point.state.stress));
+    const double scale = std::max(modulus_, norm(t.point.state.stress));
     double sum = t.volume * t.volume;
     for (const Component& c : free_) {
       const double r = double_dot(t.point.state.stress, c.direction) / scale;
@@ -168,7 +166,7 @@ class Equilibrium {
       Symmetric<double> C = at.C;
       for (int n = 0; n < m; ++n) C[free_[n].voigt] += length * b[n];
       Trial next = evaluate(C, at.point.pressure + length * b[m] * modulus_);
-      if (!next.valid || (next.norm > (1.0 - 1e-4 * length) * at.norm && next.norm > tolerance)) continue;
+      if (!next.valid || (next.norm > (1.0 - 1e-4 * length) * at.norm && next.norm > balance_tolerance)) continue;
       at = std::move(next);
       return true;
     }
@@ -232,7 +230,7 @@ PathPoint stretched(const Law& law, const Volumetric& volumetric, const FibreFra
       throw SolverError(
           fmt::format("no equilibrium at {}: Newton's method stops at a residual of {:.3e} of the "
                       "stress, asked {:.0e}; it came as far as {:.0f} % of the last step",
-                      text(stretches), residual, tolerance, 100.0 * done));
+                      text(stretches), residual, balance_tolerance, 100.0 * done));
     }
   }
   return at;
@@ -275,7 +273,7 @@ std::optional<Symmetric<double>> sheet_stress(const Law& law, const FibreFrame& 
   const Mat3<double> S_axes = transpose(Q) * full(elastic) * Q;
   Symmetric<double> S;
   for (int n = 0; n < voigt_size; ++n) S[n] = S_axes(voigt_row[n], voigt_column[n]);
-  if (std::max(std::abs(S[4]), std::abs(S[5])) > tolerance * std::max(shear_modulus_at_rest(law), size(S)))
+  if (std::max(std::abs(S[4]), std::abs(S[5])) > balance_tolerance * std::max(shear_modulus_at_rest(law), norm(S)))
     return std::nullopt;
   // S - (S33 / C33^-1) C^-1, C33^-1 = area
   const double share = S[2] / area;

@@ -38,6 +38,11 @@ template <class T>
 TUNICA_INLINE T double_dot(const Symmetric<T>& a, const Symmetric<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + T(2.0) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
+/// sqrt(a : a).
+template <class T>
+TUNICA_INLINE T norm(const Symmetric<T>& a) {
+  return sqrt(double_dot(a, a));
+}
 template <class T>
 TUNICA_INLINE Symmetric<T> operator+(const Symmetric<T>& a, const Symmetric<T>& b) {
   return {{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]}};

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/units.hpp"
 
 namespace tunica::zerod {
 
@@ -19,7 +20,6 @@ constexpr int steps_per_period = 1000, most_cycles = 1000;
 constexpr double periodic_tolerance = 1e-9;
 /// Bounds of R_T C_T, in periods: beyond them the pulse no longer depends on the compliance.
 constexpr double shortest_decay = 0.02, longest_decay = 50;
-constexpr double mmHg = 133.322387415;
 
 double average(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -256,8 +256,8 @@ class TotalsSearch {
         "({:.3g} of the whole) and from the vessel, between rigid walls from the inertia of the blood: raise "
         "`distal_share` or the pulse asked for;\n  one that is too "
         "small even without compliance in the outlets comes from the vessel's own: ask for less",
-        systolic_ / mmHg, diastolic_ / mmHg, reached_.systolic / mmHg, reached_.diastolic / mmHg,
-        1 - split_.distal_share);
+        systolic_ / unit::mmHg, diastolic_ / unit::mmHg, reached_.systolic / unit::mmHg,
+        reached_.diastolic / unit::mmHg, 1 - split_.distal_share);
   }
 
   const FlowSplit& split_;

@@ -24,7 +24,7 @@ std::string pulsating_case(const std::string& time) {
          time + "}\nnewton: {relative_tolerance: 1e-8}\noutput: {every: 50, checkpoint_every: 25}\n";
 }
 
-std::string inflow_table() {
+std::string pulsating_inflow() {
   std::string text = "t,Q\n";
   for (int k = 0; k <= 100; ++k)
     text += fmt::format("{:.6f},{:.9f}\n", period * k / 100, 10 * (1 - std::cos(2 * std::numbers::pi * k / 100)));
@@ -41,7 +41,7 @@ double exact_pressure(double t) {
 
 TEST(Cycles, EndWhenTheyRepeatThemselves) {
   const SharedFolder folder;
-  folder.write("inflow.csv", inflow_table());
+  folder.write("inflow.csv", pulsating_inflow());
   const auto file =
       folder.write("case.yaml", pulsating_case("step: 10 ms, cycles: {period: 0.5 s, most: 6, tolerance: 0.2 %}"));
   const std::string printed = run(file);
@@ -70,7 +70,7 @@ TEST(Cycles, EndWhenTheyRepeatThemselves) {
 
 TEST(Cycles, RestartGoesOnBitForBit) {
   const SharedFolder folder;
-  folder.write("inflow.csv", inflow_table());
+  folder.write("inflow.csv", pulsating_inflow());
   const auto file = folder.write(
       "case.yaml",
       pulsating_case("step: 10 ms, cycles: {period: 0.5 s, most: 3, tolerance: 1e-6}, adaptive: {tolerance: 1e-2, "
@@ -95,7 +95,7 @@ TEST(Cycles, RestartGoesOnBitForBit) {
 
 TEST(Cycles, PeriodMustFit) {
   const SharedFolder folder;
-  folder.write("inflow.csv", inflow_table());
+  folder.write("inflow.csv", pulsating_inflow());
   const auto problems = [&](const std::string& time) {
     try {
       run(folder.write("case.yaml", pulsating_case(time)));
@@ -127,7 +127,7 @@ std::pair<double, std::size_t> accuracy(const SharedFolder& folder, const std::s
 TEST(AdaptiveSteps, ErrorFollowsTheTolerance) {
   if (parallel::size(MPI_COMM_WORLD) > 1) GTEST_SKIP() << "a property of the scheme, whatever the ranks";
   const SharedFolder folder;
-  folder.write("inflow.csv", inflow_table());
+  folder.write("inflow.csv", pulsating_inflow());
   std::vector<double> errors;
   for (const char* tolerance : {"4e-2", "1e-2", "2.5e-3"}) {
     const auto [error, steps] =

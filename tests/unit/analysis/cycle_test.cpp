@@ -11,7 +11,7 @@
 namespace tunica::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A window of uneven steps.
 std::vector<double> uneven(int n, double until) {

@@ -15,7 +15,7 @@ using test::message_of;
 using test::SharedFolder;
 using test::slurp;
 
-const std::string manifest =
+const std::string manifest_text =
     R"({"case": {"hash": "1f", "file": "case.yaml"}, "mesh": {"hash": "2", "regions": [{"name": "lumen"}]},
         "runs": [{"status": "completed", "last_step": 3}, {"status": "running", "last_step": 5}]})";
 
@@ -75,7 +75,7 @@ TEST(Manifest, TracesOfARunAreResults) {
   EXPECT_EQ(find_results(folder.path())->damage, "is missing");
   remove_results(folder.path(), *find_results(folder.path()));
   EXPECT_TRUE(fs::is_empty(folder.path()));
-  folder.write("manifest.json", manifest);
+  folder.write("manifest.json", manifest_text);
   EXPECT_EQ(find_results(folder.path())->damage, "");
   EXPECT_EQ(find_results(folder.path())->last_step, 5);
 }
@@ -84,7 +84,7 @@ TEST(Manifest, AnEndIsRecordedOnlyWhereARunIsUnderWay) {
   const SharedFolder folder(MPI_COMM_SELF);
   record_end(folder.path(), "failed", "no memory");
   EXPECT_FALSE(fs::exists(folder.path() / "manifest.json"));
-  folder.write("manifest.json", manifest);
+  folder.write("manifest.json", manifest_text);
   record_end(folder.path(), "failed", "no memory");
   EXPECT_EQ(find_results(folder.path())->status, "failed");
   EXPECT_NE(slurp(folder.path() / "manifest.json").find("no memory"), std::string::npos);

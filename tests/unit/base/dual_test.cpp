@@ -7,19 +7,19 @@
 namespace tunica {
 namespace {
 
-using D = Dual<double, 2>;
-using DD = Dual<D, 2>;  // first and second derivatives
+using InTwo = Dual<double, 2>;
+using DD = Dual<InTwo, 2>;  // first and second derivatives
 
 const double x0 = 1.3, y0 = 0.7;
 
-/// Expects f(x) to have the derivative df and second derivative ddf at x0; f is called with D and DD.
+/// Expects f(x) to have the derivative df and second derivative ddf at x0; f is called with InTwo and DD.
 template <class F>
 void expect_derivatives(F f, double value, double df, double ddf) {
-  const D first = f(D::variable(x0, 0));
+  const InTwo first = f(InTwo::variable(x0, 0));
   EXPECT_NEAR(first.value, value, 1e-15 * (1 + std::fabs(value)));
   EXPECT_NEAR(first.d[0], df, 1e-14 * (1 + std::fabs(df)));
   EXPECT_EQ(first.d[1], 0.0);
-  const DD second = f(DD::variable(D::variable(x0, 0), 0));
+  const DD second = f(DD::variable(InTwo::variable(x0, 0), 0));
   EXPECT_NEAR(second.value.value, value, 1e-15 * (1 + std::fabs(value)));
   EXPECT_NEAR(second.value.d[0], df, 1e-14 * (1 + std::fabs(df)));
   EXPECT_NEAR(second.d[0].value, df, 1e-14 * (1 + std::fabs(df)));
@@ -44,7 +44,7 @@ TEST(DualFunctions, FirstAndSecondDerivatives) {
 }
 
 TEST(DualFunctions, MixedSecondDerivatives) {
-  const DD x = DD::variable(D::variable(x0, 0), 0), y = DD::variable(D::variable(y0, 1), 1);
+  const DD x = DD::variable(InTwo::variable(x0, 0), 0), y = DD::variable(InTwo::variable(y0, 1), 1);
   const DD f = exp(x * y) + x * x * y;
   const double e = std::exp(x0 * y0);
   EXPECT_NEAR(f.d[0].value, y0 * e + 2 * x0 * y0, 1e-14);
@@ -56,7 +56,7 @@ TEST(DualFunctions, MixedSecondDerivatives) {
 }
 
 TEST(DualFunctions, ChoosingTakesTheDerivativesAlong) {
-  const D x = D::variable(x0, 0), y = D::variable(y0, 1);
+  const InTwo x = InTwo::variable(x0, 0), y = InTwo::variable(y0, 1);
   EXPECT_TRUE(y < x);
   EXPECT_TRUE(x > y);
   EXPECT_EQ(max(x, y).d[0], 1.0);
@@ -67,11 +67,11 @@ TEST(DualFunctions, ChoosingTakesTheDerivativesAlong) {
 }
 
 TEST(DualFunctions, CompoundAssignment) {
-  D x = D::variable(x0, 0);
-  const D y = D::variable(y0, 1);
+  InTwo x = InTwo::variable(x0, 0);
+  const InTwo y = InTwo::variable(y0, 1);
   x += y;
   x *= y;
-  x -= D(1.0);
+  x -= InTwo(1.0);
   x /= y;  // ((x + y) y - 1) / y = x + y - 1 / y
   EXPECT_NEAR(x.value, x0 + y0 - 1 / y0, 1e-15);
   EXPECT_NEAR(x.d[0], 1.0, 1e-15);

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "text.hpp"
 #include "tunica/config/schema.hpp"
 
 namespace {
 
+using tunica::test::contains;
 using namespace tunica::bc;
 using tunica::InputError;
 
@@ -42,8 +44,6 @@ std::string refusal(const std::string& condition) {
   }
   return "no error";
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(ConditionSchema, DescriptionIsSound) {
   for (const auto& slip : tunica::config::audit(*condition_schema().description())) ADD_FAILURE() << slip;

@@ -8,13 +8,15 @@
 #include <numbers>
 #include <vector>
 
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 
 namespace {
 
+using tunica::test::contains;
 using namespace tunica;
 using namespace tunica::bc;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Disc {
   std::vector<Vec3<double>> points;
@@ -125,8 +127,6 @@ std::string message(const Disc& disc) {
   }
   return "no error";
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Inflow, RefusesFacesThatCannotCarryAProfile) {
   EXPECT_TRUE(contains(message(ellipse(1, 1.0, 1.0)), "no error"));  // the centre is free

@@ -17,7 +17,7 @@ namespace {
 using namespace tunica::bc;
 using tunica::InputError;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Rcr typical{.proximal = 1.21e7, .capacitance = 1e-9, .distal = 1.212e8, .distal_pressure = 500.0};
 
 TEST(Outlet, ResistanceFollowsTheInterpolatedFlow) {

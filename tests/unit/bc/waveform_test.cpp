@@ -8,14 +8,16 @@
 #include <numbers>
 
 #include "folders.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 
 namespace {
 
+using tunica::test::contains;
 using namespace tunica::bc;
 using tunica::InputError;
 namespace fs = std::filesystem;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Table sampled(int intervals, double period, double (*f)(double)) {
   Table table;
@@ -66,8 +68,6 @@ std::string message(const Table& table, const TableOptions& options) {
   }
   return "no error";
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Waveform, ConstantStepAndRamp) {
   EXPECT_EQ(Waveform::constant(7.0).value(-3.0), 7.0);

@@ -42,7 +42,7 @@ struct Sheet {
   }
 };
 
-const std::string text =
+const std::string sheet_text =
     "thickness: 2 mm\ntable: data/curve.csv\nedges: {left: open, right: {rim: {width: 1 cm}}}\n"
     "place: \"[1, 0, 2.5] mm\"\n";
 
@@ -55,7 +55,7 @@ std::map<std::string, std::string> settings(const std::string& yaml) {
 }
 
 TEST(Document, SettingsDoNotDependOnSpelling) {
-  const auto found = settings(text);
+  const auto found = settings(sheet_text);
   EXPECT_EQ(found.at("thickness"), "0.002");
   EXPECT_EQ(found.at("density"), "30");
   EXPECT_EQ(found.at("edges.left"), "open");
@@ -69,7 +69,7 @@ TEST(Document, SettingsDoNotDependOnSpelling) {
 }
 
 TEST(Document, PartsMoveAndCopiesShareNothing) {
-  Document whole(text);
+  Document whole(sheet_text);
   Document copy = whole;
   copy.set("edges.top", "open");
   copy.set("extra.deep.key", "1 mm");
@@ -83,16 +83,16 @@ TEST(Document, PartsMoveAndCopiesShareNothing) {
 }
 
 TEST(Document, PathsCountFromTheNewFolder) {
-  Document document(text + "output: /tmp/there\n");
+  Document document(sheet_text + "output: /tmp/there\n");
   move_paths(document, *Sheet::schema().description(), "cases", "cases/results/run");
   EXPECT_EQ(document.text("table"), "../../data/curve.csv");
   EXPECT_EQ(document.text("output"), "/tmp/there");
 }
 
 TEST(Document, TheCommentedTextSaysTheSame) {
-  const std::string again = commented_yaml(Document(text), *Sheet::schema().description());
+  const std::string again = commented_yaml(Document(sheet_text), *Sheet::schema().description());
   EXPECT_NE(again.find("thickness: 2 mm  # Across it\n"), std::string::npos) << again;
-  EXPECT_EQ(settings(again), settings(text)) << again;
+  EXPECT_EQ(settings(again), settings(sheet_text)) << again;
 }
 
 // --- texts that no tree can or should be built of -------------------------------------------------------------------

@@ -18,11 +18,11 @@ namespace {
 using test::at;
 
 const fluid::TimeCoefficients fluid_time{1e-3, 1500.0, 0.7};
-const fluid::MotionCoefficients motion{4e-4, 0.7};
+const fluid::MotionCoefficients motion_coefficients{4e-4, 0.7};
 const wall::Coefficients wall_coefficients{1500.0, 4e-4, 0.7 / 4e-4};
 
 // Sums over elements one by one, in double precision, with the sums of magnitudes as a measure of rounding.
-struct NaiveSystem {
+struct NaiveLinearSystem {
   const distributed::DistributedMesh& mesh;
   struct Sum {
     double value = 0, magnitude = 0;
@@ -34,7 +34,7 @@ struct NaiveSystem {
   std::vector<Sum> residual;
   std::map<std::pair<std::int32_t, std::int32_t>, std::array<Sum, 16>> blocks;  // row-major entries
 
-  explicit NaiveSystem(const distributed::DistributedMesh& m) : mesh(m), residual(at(m.nodes())) {}
+  explicit NaiveLinearSystem(const distributed::DistributedMesh& m) : mesh(m), residual(at(m.nodes())) {}
 
   // Motion acts on the host, pressure on the node.
   void add(const std::array<std::int32_t, 4>& nodes, const fe::ElementVector<double>& r,
@@ -49,36 +49,37 @@ struct NaiveSystem {
   }
 };
 
-Vec3<double> vector_at(const std::vector<double>& field, std::int32_t node) {
+Vec3<double> vector_of(const std::vector<double>& field, std::int32_t node) {
   return {{field[at(node)], field[at(node) + 1], field[at(node) + 2]}};
 }
 
-void add_fluid(NaiveSystem& system, const test::Fields& f, const std::array<std::int32_t, 4>& nodes,
+void add_fluid(NaiveLinearSystem& system, const test::Fields& f, const std::array<std::int32_t, 4>& nodes,
                const std::vector<char>& follows_wall) {
   fluid::ElementState<double> state;
   double moves[4];
   for (int a = 0; a < 4; ++a) {
-    state.position[a] = vector_at(f.position, nodes[a]);
-    state.velocity[a] = vector_at(f.velocity_pressure, nodes[a]);
-    state.acceleration[a] = vector_at(f.acceleration, nodes[a]);
-    state.mesh_velocity[a] = vector_at(f.mesh_velocity, nodes[a]);
+    state.position[a] = vector_of(f.position, nodes[a]);
+    state.velocity[a] = vector_of(f.velocity_pressure, nodes[a]);
+    state.acceleration[a] = vector_of(f.acceleration, nodes[a]);
+    state.mesh_velocity[a] = vector_of(f.mesh_velocity, nodes[a]);
     state.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
     moves[a] = follows_wall[static_cast<std::size_t>(nodes[a])];
   }
   fe::ElementVector<double> r;
   fe::ElementMatrix<double> k;
-  fluid::tangent_beside_wall(state, fluid_time, test::blood(), fluid::Newtonian{4e-3}, motion, moves, r, k);
+  fluid::tangent_beside_wall(state, fluid_time, test::blood(), fluid::Newtonian{4e-3}, motion_coefficients, moves, r,
+                             k);
   system.add(nodes, r, k);
 }
 
-void add_wall(NaiveSystem& system, const test::Fields& f, const std::array<std::int32_t, 4>& nodes,
+void add_wall(NaiveLinearSystem& system, const test::Fields& f, const std::array<std::int32_t, 4>& nodes,
               const wall::Parameters& parameters) {
   wall::ElementState<double> state;
   Vec3<double> X[4];
   for (int a = 0; a < 4; ++a) {
-    X[a] = vector_at(f.reference, nodes[a]);
-    state.displacement[a] = vector_at(f.displacement, nodes[a]);
-    state.acceleration[a] = vector_at(f.acceleration, nodes[a]);
+    X[a] = vector_of(f.reference, nodes[a]);
+    state.displacement[a] = vector_of(f.displacement, nodes[a]);
+    state.acceleration[a] = vector_of(f.acceleration, nodes[a]);
     state.pressure[a] = f.velocity_pressure[at(nodes[a]) + 3];
   }
   state.reference = fe::gradients(X);
@@ -117,7 +118,7 @@ struct Loops : testing::TestWithParam<wall::Element> {
     for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
       if (mesh.regions[r].kind == mesh::RegionKind::lumen) {
         for (const auto& group : lumen_groups(mesh, mesh.regions[r], follows_wall, pattern, width)) {
-          element_loops(isa).fluid(group.view(), fields.view(), test::blood(), fluid_time, motion, target);
+          element_loops(isa).fluid(group.view(), fields.view(), test::blood(), fluid_time, motion_coefficients, target);
           beside_wall += group.moves.empty() ? 0 : group.batches.elements;
         }
         continue;
@@ -133,7 +134,7 @@ struct Loops : testing::TestWithParam<wall::Element> {
 };
 
 TEST_P(Loops, AddUpToTheSumOverElementsForEveryInstructionSet) {
-  NaiveSystem naive(mesh);
+  NaiveLinearSystem naive(mesh);
   for (const auto& region : mesh.regions)
     for (const auto& element : region.elements) {
       if (region.kind == mesh::RegionKind::lumen)
@@ -157,7 +158,7 @@ TEST_P(Loops, AddUpToTheSumOverElementsForEveryInstructionSet) {
         const auto found = naive.blocks.find({row, pattern.columns[b]});
         for (int i = 0; i < 4; ++i)
           for (int j = 0; j < 4; ++j) {
-            const auto expected = found == naive.blocks.end() ? NaiveSystem::Sum{} : found->second[4 * i + j];
+            const auto expected = found == naive.blocks.end() ? NaiveLinearSystem::Sum{} : found->second[4 * i + j];
             // Entries that vanish by symmetry within an element carry the rounding of that element's block.
             EXPECT_NEAR(matrix.blocks[b].a[4 * j + i], expected.value, 1e-6 * expected.magnitude + 1e-25)
                 << "nodes " << row << ", " << pattern.columns[b] << " entry " << i << ", " << j;

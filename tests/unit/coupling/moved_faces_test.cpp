@@ -14,7 +14,7 @@ namespace {
 
 using test::at;
 
-constexpr double dt = 2e-4;  // s
+constexpr double step_size = 2e-4;  // s
 
 distributed::DistributedMesh bar() {
   return distributed::distribute(mesh::box(3, 2, 2, {{0.03, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
@@ -53,14 +53,14 @@ TEST(MovedFaces, StretchAStaticBarEvenly) {
 
 TEST(MovedFaces, FollowTheirCourseInTime) {
   const auto mesh = bar();
-  const bc::Displacement moved{.value = {{2e-4, 1e-4, 0}}, .course = {.source = 1.0, .ramp_time = 10 * dt}};
+  const bc::Displacement moved{.value = {{2e-4, 1e-4, 0}}, .course = {.source = 1.0, .ramp_time = 10 * step_size}};
   auto input = bar_input(moved);
   input.boundary.conditions[1].second = bc::Free{};
   input.boundary.conditions[0].second = bc::Fixed{};
   Problem problem(mesh, input);
   auto state = problem.initial_state();
   for (int step = 1; step <= 12; ++step) {
-    const auto report = problem.advance(state, dt);
+    const auto report = problem.advance(state, step_size);
     ASSERT_TRUE(report.converged) << report.failure;
     const double course = step < 10 ? 0.5 * (1 - std::cos(M_PI * step / 10)) : 1.0;
     for (std::int32_t i = 0; i < mesh.nodes(); ++i) {

@@ -11,10 +11,12 @@
 namespace tunica::coupling {
 namespace {
 
-constexpr double largest = 1e-4, rise = 2e-2;
+constexpr double largest_flow = 1e-4, rise = 2e-2;
 
-bc::Flow inflow() { return {.course = {.source = largest, .ramp_time = rise}, .positive = bc::Flow::Sign::inflow}; }
-double prescribed_at(double t) { return 0.5 * largest * (1 - std::cos(std::numbers::pi * t / rise)); }
+bc::Flow inflow() {
+  return {.course = {.source = largest_flow, .ramp_time = rise}, .positive = bc::Flow::Sign::inflow};
+}
+double prescribed_at(double t) { return 0.5 * largest_flow * (1 - std::cos(std::numbers::pi * t / rise)); }
 
 const FaceRecord& inlet(const StepRecord& record) {
   for (const auto& face : record.faces)

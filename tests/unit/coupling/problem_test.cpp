@@ -15,7 +15,7 @@ namespace {
 
 using test::at;
 
-constexpr double dt = 2e-4;  // s
+constexpr double time_step = 2e-4;  // s
 
 void expect_same_bits(const State& a, const State& b) {
   EXPECT_EQ(a.step, b.step);
@@ -30,7 +30,7 @@ void expect_same_bits(const State& a, const State& b) {
   for (std::size_t k = 0; k < a.outlets.size(); ++k) EXPECT_EQ(a.outlets[k].state(), b.outlets[k].state());
 }
 
-double largest(const distributed::DistributedMesh& mesh, const std::vector<double>& field) {
+double largest_value(const distributed::DistributedMesh& mesh, const std::vector<double>& field) {
   double size = 0;
   for (std::size_t k = 0; k < field.size(); ++k)
     if (k % 4 < 3) size = std::max(size, std::abs(field[k]));
@@ -39,7 +39,7 @@ double largest(const distributed::DistributedMesh& mesh, const std::vector<doubl
 
 bc::Condition windkessel() { return bc::Rcr{.proximal = 2e7, .capacitance = 1e-9, .distal = 2e8}; }
 
-ProblemInput flow_input() {
+ProblemInput exact_flow_input() {
   ProblemInput in;
   in.fluid = test::blood();
   in.boundary.fluid = in.fluid;
@@ -71,11 +71,11 @@ TEST(Problem, WithoutLoadsStaysAtRest) {
   Problem problem(mesh, test::fsi_input(test::pressure(0.0), windkessel()));
   auto state = problem.initial_state();
   for (int step = 1; step <= 3; ++step) {
-    const auto report = problem.advance(state, dt);
+    const auto report = problem.advance(state, time_step);
     EXPECT_TRUE(report.converged) << report.failure;
     EXPECT_EQ(state.step, step);
   }
-  EXPECT_NEAR(state.time, 3 * dt, 1e-15);
+  EXPECT_NEAR(state.time, 3 * time_step, 1e-15);
   for (const auto* field :
        {&state.velocity_pressure, &state.acceleration, &state.displacement, &state.displacement_rate})
     EXPECT_EQ(*field, std::vector<double>(at(mesh.nodes()), 0.0));
@@ -94,11 +94,11 @@ TEST_P(ProblemOfElements, StepIsTheSameOnAnyNumberOfRanks) {
   Problem many(parts, input), one(whole, input);
   auto a = many.initial_state(), b = one.initial_state();
   for (int step = 0; step < 3; ++step) {
-    const auto report = many.advance(a, dt);
+    const auto report = many.advance(a, time_step);
     EXPECT_TRUE(report.converged) << report.failure;
-    EXPECT_TRUE(one.advance(b, dt).converged);
+    EXPECT_TRUE(one.advance(b, time_step).converged);
   }
-  EXPECT_GT(largest(parts, a.velocity_pressure), 1e-3);
+  EXPECT_GT(largest_value(parts, a.velocity_pressure), 1e-3);
   EXPECT_LE(test::difference(parts, a.velocity_pressure, whole, b.velocity_pressure, 0, 3), 1e-6);
   EXPECT_LE(test::difference(parts, a.velocity_pressure, whole, b.velocity_pressure, 3, 4), 1e-6);
   EXPECT_LE(test::difference(parts, a.acceleration, whole, b.acceleration, 0, 3), 1e-6);
@@ -111,10 +111,10 @@ TEST(Problem, TwinsMoveWithTheirHostsAndTheInterfaceWithTheFlow) {
   const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
   Problem problem(mesh, test::fsi_input(test::pressure(1000.0), test::pressure(0.0)));
   auto state = problem.initial_state();
-  const auto scheme = assembly::TimeScheme::generalised_alpha(dt, 0.5);
+  const auto scheme = assembly::TimeScheme::generalised_alpha(time_step, 0.5);
   for (int step = 0; step < 2; ++step) {
     const State old = state;
-    const auto report = problem.advance(state, dt);
+    const auto report = problem.advance(state, time_step);
     EXPECT_TRUE(report.converged) << report.failure;
     std::vector<char> in_wall(mesh.nodes(), 0);
     for (const auto& region : mesh.regions)
@@ -139,7 +139,7 @@ TEST(Problem, TwinsMoveWithTheirHostsAndTheInterfaceWithTheFlow) {
       }
     EXPECT_GT(parallel::global_max(MPI_COMM_WORLD, own_pressures), 1.0) << "pressure jumps across the interface";
   }
-  EXPECT_GT(largest(mesh, state.displacement), 1e-8);
+  EXPECT_GT(largest_value(mesh, state.displacement), 1e-8);
 }
 
 // With Newton's linear systems solved well, the residual falls quadratically until rounding: the tangent has all that
@@ -157,14 +157,14 @@ TEST(Problem, NewtonConvergesFast) {
   }
   {
     const auto mesh = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
-    Problem problem(mesh, flow_input());
+    Problem problem(mesh, exact_flow_input());
     auto state = problem.initial_state();
     for (int step = 0; step < 3; ++step) {
       const auto report = problem.advance(state, 2e-3);
       EXPECT_TRUE(report.converged) << report.failure;
       EXPECT_LE(report.iterations.size(), 6U);
     }
-    EXPECT_GT(largest(mesh, state.velocity_pressure), 0.05);
+    EXPECT_GT(largest_value(mesh, state.velocity_pressure), 0.05);
   }
   {
     const auto mesh = distributed::distribute(test::fsi_tube(), MPI_COMM_WORLD);
@@ -173,7 +173,7 @@ TEST(Problem, NewtonConvergesFast) {
     Problem problem(mesh, input);
     auto state = problem.initial_state();
     for (int step = 0; step < 2; ++step) {
-      const auto report = problem.advance(state, dt);
+      const auto report = problem.advance(state, time_step);
       EXPECT_TRUE(report.converged) << report.failure;
       EXPECT_LE(report.iterations.size(), 5U);
     }
@@ -185,13 +185,13 @@ TEST(Problem, RejectedStepLeavesTheStateUntouched) {
   auto input = test::fsi_input(test::pressure(1000.0), windkessel());
   Problem sound(mesh, input);
   auto state = sound.initial_state();
-  EXPECT_TRUE(sound.advance(state, dt).converged);
+  EXPECT_TRUE(sound.advance(state, time_step).converged);
   const State before = state;
 
   input.newton.max_iterations = 1;
   input.newton.relative_tolerance = 1e-13;
   Problem hasty(mesh, input);
-  const auto unfinished = hasty.advance(state, dt);
+  const auto unfinished = hasty.advance(state, time_step);
   EXPECT_FALSE(unfinished.converged);
   EXPECT_NE(unfinished.failure.find("did not converge in 1 iterations"), std::string::npos) << unfinished.failure;
   expect_same_bits(state, before);
@@ -207,19 +207,19 @@ TEST(Problem, RejectedStepLeavesTheStateUntouched) {
 
   // The state still leads where it led before.
   State again = before;
-  EXPECT_TRUE(sound.advance(state, dt).converged);
-  EXPECT_TRUE(sound.advance(again, dt).converged);
+  EXPECT_TRUE(sound.advance(state, time_step).converged);
+  EXPECT_TRUE(sound.advance(again, time_step).converged);
   expect_same_bits(state, again);
 }
 
 TEST(Problem, LinearSolverThatStopsEarlyIsReported) {
   const auto mesh = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
-  auto input = flow_input();
+  auto input = exact_flow_input();
   input.linear.max_iterations = 1;
   Problem problem(mesh, input);
   auto state = problem.initial_state();
   const auto before = state;
-  const auto report = problem.advance(state, dt);
+  const auto report = problem.advance(state, time_step);
   EXPECT_FALSE(report.converged);
   EXPECT_NE(report.failure.find("linear solver stopped after 1 iterations"), std::string::npos) << report.failure;
   expect_same_bits(state, before);
@@ -245,7 +245,7 @@ TEST(Problem, StaticBarHasTheStretchOfUniaxialTension) {
         EXPECT_NEAR(state.displacement[at(i) + 2], -nu * strain * x[2], 3e-3 * strain * size[0]);
       }
     }
-    EXPECT_EQ(largest(mesh, state.velocity_pressure), 0.0);
+    EXPECT_EQ(largest_value(mesh, state.velocity_pressure), 0.0);
     EXPECT_EQ(state.time, 0.0);
   }
 }
@@ -253,19 +253,19 @@ TEST(Problem, StaticBarHasTheStretchOfUniaxialTension) {
 // A light bar under a growing pull: its stress is the pull of the instant at which forces balance, not made of the
 // displacement at the end of the step and the pressure before it.
 TEST(Problem, StressOfTheWallIsThatOfOneInstant) {
-  constexpr double stress = 100.0, ramp = 10 * dt;
+  constexpr double stress = 100.0, ramp = 10 * time_step;
   const auto mesh =
       distributed::distribute(mesh::box(2, 1, 1, {{0.02, 0.01, 0.01}}, mesh::RegionKind::wall), MPI_COMM_WORLD);
   auto input = bar_input(wall::Element::mixed, stress);
   input.wall->density = 1e-3;
   std::get<bc::Traction>(input.boundary.conditions[3].second).course.ramp_time = ramp;
-  const auto scheme = assembly::TimeScheme::generalised_alpha(dt, input.rho_infinity);
+  const auto scheme = assembly::TimeScheme::generalised_alpha(time_step, input.rho_infinity);
   Problem problem(mesh, input);
   auto state = problem.initial_state();
   for (int step = 0; step < 4; ++step) {
-    const auto report = problem.advance(state, dt);
+    const auto report = problem.advance(state, time_step);
     ASSERT_TRUE(report.converged) << report.failure;
-    const double pull = 0.5 * stress * (1 - std::cos(M_PI * (step + scheme.alpha_f) * dt / ramp));
+    const double pull = 0.5 * stress * (1 - std::cos(M_PI * (step + scheme.alpha_f) * time_step / ramp));
     const auto fields = problem.fields_with_pressure(state);
     for (std::int32_t e = 0; e < mesh.regions[0].owned_elements; ++e) {
       const auto sigma =
@@ -291,7 +291,7 @@ TEST(Problem, NodalForcesActLikeATractionAndThroughTwinsOnHosts) {
   auto a = pulled.initial_state(), b = forced.initial_state();
   EXPECT_TRUE(pulled.solve_static(a, 0.7).converged);
   EXPECT_TRUE(forced.solve_static(b, 0.7).converged);
-  const double size = largest(mesh, a.displacement);
+  const double size = largest_value(mesh, a.displacement);
   EXPECT_GT(size, 0.0);
   for (std::size_t k = 0; k < a.displacement.size(); ++k)
     EXPECT_NEAR(a.displacement[k], b.displacement[k], 1e-7 * size);
@@ -304,7 +304,7 @@ TEST_P(ProblemOfElements, PartialResidualsBalanceAtTheInterface) {
   input.newton.relative_tolerance = 1e-9;
   Problem problem(mesh, input);
   auto state = problem.initial_state();
-  EXPECT_TRUE(problem.advance(state, dt).converged);
+  EXPECT_TRUE(problem.advance(state, time_step).converged);
   const auto parts = problem.partial_residuals();
   double sum = 0, size = 0;
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
@@ -324,10 +324,10 @@ TEST_P(ProblemOfElements, PartialResidualsBalanceAtTheInterface) {
 
 TEST(Problem, RefusesPhysicsThatDoNotFitTheMesh) {
   const auto lumen = distributed::distribute(test::fluid_tube(), MPI_COMM_WORLD);
-  auto input = flow_input();
+  auto input = exact_flow_input();
   input.fluid.reset();
   EXPECT_THROW(Problem(lumen, input), InputError);
-  input = flow_input();
+  input = exact_flow_input();
   input.wall = test::soft_wall(wall::Element::mixed);
   EXPECT_THROW(Problem(lumen, input), InputError);
 }

@@ -34,12 +34,12 @@ struct Sum {
 };
 
 // Motion acts on the host, pressure on the node.
-struct NaiveSystem {
+struct NaiveQuadraticSystem {
   const distributed::DistributedMesh& mesh;
   std::vector<Sum> residual;
   std::map<std::pair<std::int32_t, std::int32_t>, std::array<Sum, 16>> blocks;  // row-major entries
 
-  explicit NaiveSystem(const distributed::DistributedMesh& m) : mesh(m), residual(at(m.nodes())) {}
+  explicit NaiveQuadraticSystem(const distributed::DistributedMesh& m) : mesh(m), residual(at(m.nodes())) {}
 
   template <bool mixed>
   void add(const std::array<std::int32_t, 10>& nodes, const wq::ElementState<double>& state, const wall::Law& law,
@@ -81,7 +81,7 @@ struct QuadraticWallLoop : testing::TestWithParam<Prestressed> {
     for (auto& region : mesh.regions) region.elements.pop_back(), region.edges.pop_back();
   }
 
-  void add_naively(NaiveSystem& naive) const {
+  void add_naively(NaiveQuadraticSystem& naive) const {
     for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
       const auto& region = mesh.regions[r];
       if (region.kind != mesh::RegionKind::wall) continue;
@@ -114,7 +114,7 @@ TEST_P(QuadraticWallLoop, AddsUpToTheSumOverElementsForEveryInstructionSet) {
       }
   }
   model.set_prestress(prestress, none);
-  NaiveSystem naive(mesh);
+  NaiveQuadraticSystem naive(mesh);
   add_naively(naive);
   std::int64_t split = 0;
   for (const auto isa : test::available_isas()) {

@@ -13,7 +13,7 @@
 namespace tunica::coupling {
 namespace {
 
-constexpr double length = 0.03, height = 0.02, depth = 0.01, viscosity = 4e-3, flow = 1e-6;
+constexpr double channel_length = 0.03, height = 0.02, depth = 0.01, viscosity = 4e-3, flow = 1e-6;
 constexpr double mean = flow / (height * depth), slope = 3 * viscosity * mean / (height * height);  // of the pressure
 
 ProblemInput channel_input() {
@@ -49,11 +49,12 @@ TEST(Symmetry, HalfAChannelFlowsAsTheWholeOne) {
     const double y = dot(mesh.points[i], e2) / height, x = dot(mesh.points[i], e1);
     const Vec3<double> expected = (1.5 * mean * (1 - y * y)) * e1;
     error = std::max(error, norm(vector_at(state.velocity_pressure.data(), i) - expected));
-    pressure_error = std::max(pressure_error, std::abs(state.velocity_pressure[at(i) + 3] - slope * (length - x)));
+    pressure_error =
+        std::max(pressure_error, std::abs(state.velocity_pressure[at(i) + 3] - slope * (channel_length - x)));
   }
   // Measured 4e-6 to 8e-6 and 1.3e-5 to 2.5e-5: what the solver leaves, other on 1, 2 and 3 ranks.
   EXPECT_LE(parallel::global_max(MPI_COMM_WORLD, error), 2e-5 * mean);
-  EXPECT_LE(parallel::global_max(MPI_COMM_WORLD, pressure_error), 1e-4 * slope * length);
+  EXPECT_LE(parallel::global_max(MPI_COMM_WORLD, pressure_error), 1e-4 * slope * channel_length);
 }
 
 // Against the shear at the wall; planes of symmetry take no part of it. Nodes on the rim of an opening have their share
@@ -67,8 +68,9 @@ TEST(Symmetry, ForceOnTheWallIsTheShear) {
   ASSERT_EQ(record.wall_forces.size(), 1u);
   EXPECT_EQ(record.wall_forces[0].name, "y_max");
   const auto [e1, e2, e3] = test::turned_axes();
-  const double shear = 3 * viscosity * mean / height * length * depth, push = 0.5 * slope * length * length * depth;
-  const double inlet = slope * length * height * depth / 24;
+  const double shear = 3 * viscosity * mean / height * channel_length * depth,
+               push = 0.5 * slope * channel_length * channel_length * depth;
+  const double inlet = slope * channel_length * height * depth / 24;
   EXPECT_NEAR(dot(record.wall_forces[0].force, e1), shear - inlet, 1e-4 * shear);
   EXPECT_NEAR(dot(record.wall_forces[0].force, e2), push, 1e-4 * push);
 }
@@ -87,7 +89,7 @@ TEST(Probes, InterpolateAsTheElementDoes) {
     }
     std::vector<ProbePlace> places;
     for (const double s : {0.0, 0.13, 0.5, 0.77, 1.0})
-      places.push_back({"p", (s * length) * e1 + ((1 - s) * height) * e2 + (0.4 * depth) * e3});
+      places.push_back({"p", (s * channel_length) * e1 + ((1 - s) * height) * e2 + (0.4 * depth) * e3});
     const auto records = Probes(mesh, places).evaluate(state);
     for (std::size_t k = 0; k < places.size(); ++k) {
       EXPECT_NEAR(records[k].velocity[1], value(places[k].place), 1e-14);

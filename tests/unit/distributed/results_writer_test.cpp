@@ -72,8 +72,6 @@ class ResultsWriterTest : public ::testing::Test {
   std::vector<double> unknowns_, ids_;
 };
 
-}  // namespace
-
 TEST_F(ResultsWriterTest, FilesHoldEachElementOnceAndTheFieldsInTheirUnits) {
   auto results = writer();
   write(results, 7, 0.25);
@@ -234,4 +232,5 @@ TEST_F(ResultsWriterTest, RefusesBadDirectoriesAndSeriesOnAllRanks) {
   EXPECT_NO_THROW(writer());
 }
 
+}  // namespace
 }  // namespace tunica::distributed

@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::slurp;
+using tunica::test::contains;
 
 std::string failure(const std::function<void()>& action) {
   try {
@@ -28,8 +29,6 @@ std::string failure(const std::function<void()>& action) {
   }
   return "none";
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
@@ -92,7 +91,7 @@ TEST(AtomicFile, LimitOfFileSizeIsAnErrorAndKeepsTheOldFile) {
   write_atomically(path, "old");
   const FileSizeLimit limit(1000);
   const auto message = failure([&] { write_atomically(path, std::string(5000, 'x')); });
-  EXPECT_TRUE(says(message, "cannot write " + path.string() + ": File too large; raise the limit")) << message;
+  EXPECT_TRUE(contains(message, "cannot write " + path.string() + ": File too large; raise the limit")) << message;
   EXPECT_EQ(slurp(path), "old");
   EXPECT_EQ(entries(folder.path()), 1u);
 }
@@ -107,7 +106,7 @@ TEST(AtomicFile, FullDiskIsAnErrorAndLeavesNothing) {
   const auto left = entries(disk);
   write_atomically(disk / "b", "fits");
   umount(disk.c_str());
-  EXPECT_TRUE(says(message, "No space left on device; free some space")) << message;
+  EXPECT_TRUE(contains(message, "No space left on device; free some space")) << message;
   EXPECT_EQ(left, 0u);
 }
 
@@ -117,7 +116,7 @@ TEST(AtomicFile, FullDeviceIsAnErrorThatNamesTheFileAsItWasGiven) {
   const auto path = folder.path() / "a.txt";
   fs::create_symlink("/dev/full", path);
   const auto message = failure([&] { write_atomically(path, "text"); });
-  EXPECT_TRUE(says(message, "cannot write " + path.string() + ": No space left on device")) << message;
+  EXPECT_TRUE(contains(message, "cannot write " + path.string() + ": No space left on device")) << message;
   struct stat device {};
   ASSERT_EQ(stat("/dev/full", &device), 0);
   EXPECT_TRUE(S_ISCHR(device.st_mode));
@@ -129,10 +128,10 @@ TEST(AtomicFile, SaysWhatIsWrongWithAName) {
   write_atomically(folder.path() / "file", "");
   fs::create_directory(folder.path() / "folder");
   const auto of = [&](const fs::path& name) { return failure([&] { write_atomically(folder.path() / name, "x"); }); };
-  EXPECT_TRUE(says(of("file/a"), "Not a directory")) << of("file/a");
-  EXPECT_TRUE(says(of("none/a"), "No such file or directory")) << of("none/a");
-  EXPECT_TRUE(says(of("folder"), "Is a directory")) << of("folder");
-  EXPECT_TRUE(says(of(std::string(300, 'n')), "File name too long; choose a shorter name"));
+  EXPECT_TRUE(contains(of("file/a"), "Not a directory")) << of("file/a");
+  EXPECT_TRUE(contains(of("none/a"), "No such file or directory")) << of("none/a");
+  EXPECT_TRUE(contains(of("folder"), "Is a directory")) << of("folder");
+  EXPECT_TRUE(contains(of(std::string(300, 'n')), "File name too long; choose a shorter name"));
 }
 
 TEST(AtomicFile, ALibraryWritesUnderATemporaryName) {
@@ -159,11 +158,12 @@ TEST(AtomicFile, ALibraryWritesUnderATemporaryName) {
 TEST(Append, AddsAWholeLineOrNone) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "a.csv";
-  EXPECT_TRUE(says(failure([&] { append(path, "1\n"); }), "No such file")) << "a file that is gone is not begun anew";
+  EXPECT_TRUE(contains(failure([&] { append(path, "1\n"); }), "No such file"))
+      << "a file that is gone is not begun anew";
   write_atomically(path, "head\n");
   append(path, "1\n");
   const FileSizeLimit limit(10);
-  EXPECT_TRUE(says(failure([&] { append(path, "123456789\n"); }), path.string() + ": File too large"));
+  EXPECT_TRUE(contains(failure([&] { append(path, "123456789\n"); }), path.string() + ": File too large"));
   EXPECT_EQ(slurp(path), "head\n1\n");
 }
 

@@ -16,6 +16,8 @@
 namespace tunica::files {
 namespace {
 
+using tunica::test::contains;
+
 namespace fs = std::filesystem;
 
 std::string refusal(const fs::path& folder) {
@@ -28,8 +30,6 @@ std::string refusal(const fs::path& folder) {
 }
 
 std::string own_number() { return "pid: " + std::to_string(getpid()) + "\n"; }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A process that does something and waits to be killed.
 class Child {
@@ -81,7 +81,7 @@ class Lock : public testing::Test {
 TEST_F(Lock, GoesWithItsHolderAndTheFolderMadeForIt) {
   {
     const FolderLock lock(results);
-    EXPECT_TRUE(says(test::slurp(file), own_number()));
+    EXPECT_TRUE(contains(test::slurp(file), own_number()));
     EXPECT_TRUE(lock.taken_over().empty());
   }
   EXPECT_FALSE(fs::exists(results));
@@ -106,8 +106,8 @@ TEST_F(Lock, IsRefusedToAnotherProcess) {
   const Child other = holder();
   ASSERT_TRUE(other.began);
   const auto message = refusal(results);
-  EXPECT_TRUE(says(message, "is being written by `")) << message;
-  EXPECT_TRUE(says(message, "process " + std::to_string(other.pid))) << message;
+  EXPECT_TRUE(contains(message, "is being written by `")) << message;
+  EXPECT_TRUE(contains(message, "process " + std::to_string(other.pid))) << message;
   EXPECT_THROW(refuse_if_owned_by_another(results), InputError);
   EXPECT_TRUE(fs::exists(file));
   EXPECT_NO_THROW(refuse_if_owned_by_another(folder.path()));
@@ -122,9 +122,9 @@ TEST_F(Lock, OfAKilledProcessIsTakenOver) {
   EXPECT_NO_THROW(refuse_if_owned_by_another(results));
   {
     const FolderLock lock(results);
-    EXPECT_TRUE(says(lock.taken_over(), "was left locked by `")) << lock.taken_over();
-    EXPECT_TRUE(says(lock.taken_over(), std::to_string(other.pid))) << lock.taken_over();
-    EXPECT_TRUE(says(test::slurp(file), own_number()));
+    EXPECT_TRUE(contains(lock.taken_over(), "was left locked by `")) << lock.taken_over();
+    EXPECT_TRUE(contains(lock.taken_over(), std::to_string(other.pid))) << lock.taken_over();
+    EXPECT_TRUE(contains(test::slurp(file), own_number()));
   }
   EXPECT_FALSE(fs::exists(file));
 }
@@ -134,15 +134,15 @@ TEST_F(Lock, OfAnotherHostIsRefusedWithTheWayOut) {
   other.end();
   change("host", "node17");
   const auto message = refusal(results);
-  EXPECT_TRUE(says(message, "on node17")) << message;
-  EXPECT_TRUE(says(message, "remove " + file.string())) << message;
+  EXPECT_TRUE(contains(message, "on node17")) << message;
+  EXPECT_TRUE(contains(message, "remove " + file.string())) << message;
 }
 
 TEST_F(Lock, OfAnotherContainerIsRefused) {
   Child other = holder();
   other.end();
   change("process_space", "pid:[1]");
-  EXPECT_TRUE(says(refusal(results), "cannot be told whether"));
+  EXPECT_TRUE(contains(refusal(results), "cannot be told whether"));
 }
 
 TEST_F(Lock, OfANumberThatIsUsedAgainIsTakenOver) {
@@ -171,12 +171,12 @@ TEST_F(Lock, IsLeftAloneByACopyOfItsProcess) {
 TEST_F(Lock, ThatSaysNothingIsRefused) {
   fs::create_directory(results);
   write_atomically(file, "no lock\n");
-  EXPECT_TRUE(says(refusal(results), "does not say who owns the folder"));
+  EXPECT_TRUE(contains(refusal(results), "does not say who owns the folder"));
 }
 
 TEST_F(Lock, OfAFileIsRefused) {
   write_atomically(results, "a file");
-  EXPECT_TRUE(says(refusal(results), "the folder cannot be made"));
+  EXPECT_TRUE(contains(refusal(results), "the folder cannot be made"));
 }
 
 // Exactly one of those that meet the lock of an ended process at the same time gets it, again and again.

@@ -12,10 +12,11 @@
 namespace tunica::fluid {
 namespace {
 
-constexpr int cells = 3, side = cells + 1, all_nodes = side * side * side, unknowns = 4 * all_nodes;
-constexpr double size = 3e-3;
+constexpr int cells = 3, nodes_along = cells + 1, all_nodes = nodes_along * nodes_along * nodes_along,
+              unknowns = 4 * all_nodes;
+constexpr double edge = 3e-3;
 
-int node(int i, int j, int k) { return (k * side + j) * side + i; }
+int node(int i, int j, int k) { return (k * nodes_along + j) * nodes_along + i; }
 
 /// A box of 3 x 3 x 3 cells of six tetrahedra. Velocity prescribed on its boundary, pressure at node 0; one step of
 /// backward Euler, v. = (v - v_n) / dt.
@@ -23,14 +24,14 @@ class Box {
  public:
   explicit Box(double dt) : time_{.dt = dt, .acceleration = 1.0 / dt, .velocity = 1.0} {
     test::RandomElement random(4);
-    for (int k = 0; k < side; ++k)
-      for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i) {
+    for (int k = 0; k < nodes_along; ++k)
+      for (int j = 0; j < nodes_along; ++j)
+        for (int i = 0; i < nodes_along; ++i) {
           const bool boundary = i == 0 || j == 0 || k == 0 || i == cells || j == cells || k == cells;
-          const double h = size / cells;
+          const double h = edge / cells;
           const Vec3<double> x{{h * i, h * j, h * k}};
           position_.push_back(boundary ? x : x + random.vector(0.1 * h));
-          const double X = x[0] / size - 0.5, Y = x[1] / size - 0.5, Z = x[2] / size - 0.5;
+          const double X = x[0] / edge - 0.5, Y = x[1] / edge - 0.5, Z = x[2] / edge - 0.5;
           const Vec3<double> divergence_free{{Y * Y + Z, X * Z - X, X * X - Y}};
           initial_.push_back(boundary ? divergence_free : divergence_free + random.vector(0.1));
           mesh_velocity_.push_back(random.vector(0.1));

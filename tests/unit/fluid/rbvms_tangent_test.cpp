@@ -10,11 +10,11 @@
 namespace tunica::fluid {
 namespace {
 
-using D = Dual<double, 16>;  // derivatives with respect to the 16 unknowns of an element
+using InUnknowns = Dual<double, 16>;  // derivatives with respect to the 16 unknowns of an element
 
 /// The state as a function of the unknowns: velocity = ... + c x, acceleration = ... + m x, pressure = x.
-ElementState<D> with_derivatives(const ElementState<double>& state, const TimeCoefficients& time) {
-  ElementState<D> s = test::convert<D>(state);
+ElementState<InUnknowns> with_derivatives(const ElementState<double>& state, const TimeCoefficients& time) {
+  ElementState<InUnknowns> s = test::convert<InUnknowns>(state);
   for (int b = 0; b < 4; ++b) {
     for (int j = 0; j < 3; ++j) {
       s.velocity[b][j].d[4 * b + j] = time.velocity;
@@ -31,8 +31,9 @@ template <class Law>
 double tangent_error(const ElementState<double>& state, const TimeCoefficients& time, const Parameters& parameters,
                      const Law& law) {
   const Tau<double> tau = stabilisation(evaluate(state, law), time.dt, parameters);
-  fe::ElementVector<D> expected;
-  residual_with(evaluate(with_derivatives(state, time), law), test::frozen<D>(tau), parameters.density, expected);
+  fe::ElementVector<InUnknowns> expected;
+  residual_with(evaluate(with_derivatives(state, time), law), test::frozen<InUnknowns>(tau), parameters.density,
+                expected);
   fe::ElementVector<double> r;
   fe::ElementMatrix<double> k;
   tangent(state, time, parameters, law, r, k);

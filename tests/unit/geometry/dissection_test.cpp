@@ -9,7 +9,7 @@
 namespace tunica::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 geometry::ParametricDissection parse(const std::string& yaml) {
   return config::parse_text(geometry::ParametricDissection::schema(), yaml).value;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-const TriangleSurface lumen = tube(5e-3, 20e-3, 24, 16), wall = tube(6e-3, 20e-3, 30, 16);
+const TriangleSurface lumen_tube = tube(5e-3, 20e-3, 24, 16), wall_tube = tube(6e-3, 20e-3, 30, 16);
 
 /// Moves the points of the upper rim by `height` of their place.
 template <class Height>
@@ -20,7 +20,8 @@ TriangleSurface with_rim(TriangleSurface surface, const Height& height) {
 }
 
 TEST(Openings, FoundInPairsWithPlanes) {
-  const auto openings = find_openings(lumen, &wall, {{"top", {{0, 1e-3, 20e-3}}}, {"bottom", {{0, 0, -1e-3}}}});
+  const auto openings =
+      find_openings(lumen_tube, &wall_tube, {{"top", {{0, 1e-3, 20e-3}}}, {"bottom", {{0, 0, -1e-3}}}});
   ASSERT_EQ(openings.size(), 2u);
   EXPECT_EQ(openings[0].name, "top");
   EXPECT_NEAR(openings[0].normal[2], 1, 1e-12);
@@ -31,7 +32,7 @@ TEST(Openings, FoundInPairsWithPlanes) {
 }
 
 TEST(Openings, NamedByAreaWithoutNames) {
-  auto cone = lumen;
+  auto cone = lumen_tube;
   for (auto& p : cone.points)
     for (int d = 0; d < 2; ++d) p[d] *= 1 + 10 * p[2];
   const auto openings = find_openings(cone, nullptr, {});
@@ -45,25 +46,26 @@ TEST(Openings, RefusesWhatDoesNotMatch) {
                       const std::vector<NamedPlace>& names = {}) {
     return message_of<InputError>([&] { find_openings(inner, &outer, names); });
   };
-  auto far = wall;
+  auto far = wall_tube;
   for (auto& p : far.points) p[2] += p[2] > 0.01 ? 10e-3 : 0;
-  EXPECT_TRUE(says(why(lumen, far), "has no lumen rim inside it"));
-  EXPECT_TRUE(says(why(lumen, far), "has no rim of the outer surface around it"));
-  auto twice = wall;
+  EXPECT_TRUE(says(why(lumen_tube, far), "has no lumen rim inside it"));
+  EXPECT_TRUE(says(why(lumen_tube, far), "has no rim of the outer surface around it"));
+  auto twice = wall_tube;
   append(twice, tube(6.5e-3, 20e-3, 30, 16));
-  EXPECT_TRUE(says(why(lumen, twice), "has no lumen rim inside it"));
-  auto shifted = wall;
+  EXPECT_TRUE(says(why(lumen_tube, twice), "has no lumen rim inside it"));
+  auto shifted = wall_tube;
   for (auto& p : shifted.points) p[0] += 1.5e-3;
-  EXPECT_TRUE(says(why(lumen, shifted), "reaches beyond the rim"));
-  const auto ragged = with_rim(lumen, [](const Point& p) { return 1.6e-3 * std::cos(2 * std::atan2(p[1], p[0])); });
-  EXPECT_TRUE(says(why(ragged, wall), "leave their common plane by 1.6"));
-  EXPECT_TRUE(says(why(lumen, wall, {{"top", {{0, 0, 20e-3}}}}), "has no name"));
-  EXPECT_TRUE(says(why(lumen, wall, {{"side", {{20e-3, 0, 10e-3}}}}), "there is no opening of its own"));
+  EXPECT_TRUE(says(why(lumen_tube, shifted), "reaches beyond the rim"));
+  const auto ragged =
+      with_rim(lumen_tube, [](const Point& p) { return 1.6e-3 * std::cos(2 * std::atan2(p[1], p[0])); });
+  EXPECT_TRUE(says(why(ragged, wall_tube), "leave their common plane by 1.6"));
+  EXPECT_TRUE(says(why(lumen_tube, wall_tube, {{"top", {{0, 0, 20e-3}}}}), "has no name"));
+  EXPECT_TRUE(says(why(lumen_tube, wall_tube, {{"side", {{20e-3, 0, 10e-3}}}}), "there is no opening of its own"));
 }
 
 TEST(Openings, RefusesDiametersThatSpeakOfAnotherUnit) {
   for (const double factor : {0.1, 25.4}) {
-    auto scaled = lumen;
+    auto scaled = lumen_tube;
     for (auto& p : scaled.points) p = factor * p;
     const auto text = message_of<InputError>([&] { find_openings(scaled, nullptr, {}); });
     EXPECT_TRUE(says(text, factor < 1 ? "its largest opening is 0.994 mm wide" : "its largest opening is 253 mm wide"))

@@ -55,7 +55,7 @@ std::string metaimage(const std::string& fields, const std::string& data = eight
          "\nElementDataFile = LOCAL\n" + data;
 }
 
-const std::string raw = "encoding: raw\nspacings: 1 1 1";
+const std::string raw_header = "encoding: raw\nspacings: 1 1 1";
 const std::string spacing = "ElementSpacing = 1 1 1";
 const std::string huge_sizes[] = {"100000 100000 100000", "4611686018427387904 2 2", "9223372036854775807 3 3",
                                   "4294967296 4294967296 2", "2000 2000 2000"};
@@ -65,11 +65,11 @@ const std::string huge_sizes[] = {"100000 100000 100000", "4611686018427387904 2
 TEST_F(DamagedImage, SizesThatOverflowOrNoFileCanHold) {
   for (const auto& sizes : huge_sizes) {
     SCOPED_TRACE(sizes);
-    refused("a.nrrd", nrrd(raw, eight, sizes), "at most 2147483648 can be read");
+    refused("a.nrrd", nrrd(raw_header, eight, sizes), "at most 2147483648 can be read");
     refused("a.nrrd", nrrd("encoding: gzip\nspacings: 1 1 1", zipped(eight), sizes), "at most 2147483648 can be read");
     refused("a.mha", metaimage(spacing, eight, sizes), "at most 2147483648 can be read");
   }
-  refused("a.nrrd", nrrd(raw, eight, "99999999999999999999 2 2"), "must be 3 whole numbers");
+  refused("a.nrrd", nrrd(raw_header, eight, "99999999999999999999 2 2"), "must be 3 whole numbers");
   auto nifti = nifti_header(1);
   for (int d = 1; d <= 3; ++d) put_at(nifti, 40 + 2 * static_cast<std::size_t>(d), std::int16_t{32767});
   refused("a.nii", nifti + eight, "at most 2147483648 can be read");
@@ -77,11 +77,11 @@ TEST_F(DamagedImage, SizesThatOverflowOrNoFileCanHold) {
 
 TEST_F(DamagedImage, SizesBelowTwoOrNoWholeNumbers) {
   for (const char* sizes : {"0 2 2", "-2 2 2", "2 2 1"}) {
-    refused("a.nrrd", nrrd(raw, eight, sizes), "is an image of ");
+    refused("a.nrrd", nrrd(raw_header, eight, sizes), "is an image of ");
     refused("a.mha", metaimage(spacing, eight, sizes), "is an image of ");
   }
   for (const char* sizes : {"2.5 2 2", "nan 2 2", "2 2", "2 2 2 2", "1e1 2 2", "two 2 2"}) {
-    refused("a.nrrd", nrrd(raw, eight, sizes), "field 'sizes' is");
+    refused("a.nrrd", nrrd(raw_header, eight, sizes), "field 'sizes' is");
     refused("a.mha", metaimage(spacing, eight, sizes), "field 'dimsize' is");
   }
 }
@@ -89,7 +89,8 @@ TEST_F(DamagedImage, SizesBelowTwoOrNoWholeNumbers) {
 TEST_F(DamagedImage, SizesLargerThanTheFileTakeNoMemory) {
   // Two gigabytes, as the header says.
   const std::string sizes = "1000 1000 2000";
-  refused("a.nrrd", nrrd(raw, eight, sizes), "holds 8 bytes of data, its size of 1000 x 1000 x 2000 voxels asks for");
+  refused("a.nrrd", nrrd(raw_header, eight, sizes),
+          "holds 8 bytes of data, its size of 1000 x 1000 x 2000 voxels asks for");
   refused("a.nrrd", nrrd("encoding: gzip\nspacings: 1 1 1", zipped(eight), sizes), "holds at most ");
   refused("a.nrrd", nrrd("encoding: ascii\nspacings: 1 1 1", "1 2 3", sizes), "holds at most 3 values as text");
   refused("a.mha", metaimage(spacing, eight, sizes), "holds 8 bytes of data");
@@ -102,7 +103,7 @@ TEST_F(DamagedImage, SizesLargerThanTheFileTakeNoMemory) {
 
 TEST_F(DamagedImage, MoreDataThanTheSizeSays) {
   const auto nine = eight + "\1";
-  refused("a.nrrd", nrrd(raw, nine), "holds 9 bytes of data, its size of 2 x 2 x 2 voxels asks for 8");
+  refused("a.nrrd", nrrd(raw_header, nine), "holds 9 bytes of data, its size of 2 x 2 x 2 voxels asks for 8");
   refused("a.nrrd", nrrd("encoding: gzip\nspacings: 1 1 1", zipped(nine)), "holds more than 8 bytes");
   refused("a.nrrd", nrrd("encoding: ascii\nspacings: 1 1 1", "1 2 3 4 5 6 7 8 9"), "holds more than 8 values as text");
   refused("a.mha", metaimage(spacing, nine), "holds 9 bytes of data");
@@ -286,19 +287,19 @@ TEST_F(DamagedImage, NrrdPlacedByItsAxes) {
 
 TEST_F(DamagedImage, NrrdInOtherUnits) {
   const auto spacing_in = [&](const std::string& units) {
-    return read_label_image(write("a.nrrd", nrrd(raw + "\n" + units))).frame.steps[0][0];
+    return read_label_image(write("a.nrrd", nrrd(raw_header + "\n" + units))).frame.steps[0][0];
   };
   EXPECT_DOUBLE_EQ(spacing_in("units: \"cm\" \"cm\" \"cm\""), 1e-2);
   EXPECT_DOUBLE_EQ(spacing_in("space units: \"um\" \"um\" \"um\""), 1e-6);
   EXPECT_DOUBLE_EQ(spacing_in("units: \"\" \"\" \"\""), 1e-3);
-  refused("a.nrrd", nrrd(raw + "\nunits: \"mm\" \"mm\" \"cm\""), "the same along each axis");
-  refused("a.nrrd", nrrd(raw + "\nspace units: \"inch\" \"inch\" \"inch\""), "lengths are in");
+  refused("a.nrrd", nrrd(raw_header + "\nunits: \"mm\" \"mm\" \"cm\""), "the same along each axis");
+  refused("a.nrrd", nrrd(raw_header + "\nspace units: \"inch\" \"inch\" \"inch\""), "lengths are in");
 }
 
 TEST_F(DamagedImage, NrrdWithForeignHeadersBeforeItsData) {
   const auto detached = [&](const std::string& fields, const std::string& data) {
     write("a.raw", data);
-    return labels("a.nhdr", nrrd(raw + "\ndata file: a.raw\n" + fields, ""));
+    return labels("a.nhdr", nrrd(raw_header + "\ndata file: a.raw\n" + fields, ""));
   };
   EXPECT_EQ(detached("byte skip: 4", "1234" + eight), counted);
   EXPECT_EQ(detached("line skip: 2", "one\ntwo\n" + eight), counted);
@@ -306,14 +307,14 @@ TEST_F(DamagedImage, NrrdWithForeignHeadersBeforeItsData) {
   EXPECT_EQ(detached("byte skip: -1", "anything at all" + eight), counted);
   const std::string gz = "encoding: gzip\nspacings: 1 1 1\n";
   EXPECT_EQ(labels("a.nrrd", nrrd(gz + "byte skip: 3", zipped("abc" + eight))), counted);
-  refused("a.nrrd", nrrd(raw + "\nbyte skip: 300"), "field 'byte skip' is '300': there are fewer bytes");
-  refused("a.nrrd", nrrd(raw + "\nbyte skip: -2"), "must be at least -1");
+  refused("a.nrrd", nrrd(raw_header + "\nbyte skip: 300"), "field 'byte skip' is '300': there are fewer bytes");
+  refused("a.nrrd", nrrd(raw_header + "\nbyte skip: -2"), "must be at least -1");
   refused("a.nrrd", nrrd(gz + "byte skip: -1", zipped(eight)), "must be at least 0");
-  refused("a.nrrd", nrrd(raw + "\nline skip: 7"), "field 'line skip' is '7'");
+  refused("a.nrrd", nrrd(raw_header + "\nline skip: 7"), "field 'line skip' is '7'");
 }
 
 TEST_F(DamagedImage, NrrdWhoseDataFileIsAmiss) {
-  const auto header = [](const std::string& file) { return nrrd(raw + "\ndata file: " + file, ""); };
+  const auto header = [](const std::string& file) { return nrrd(raw_header + "\ndata file: " + file, ""); };
   refused("a.nhdr", header("none.raw"), "none.raw: there is no such file");
   refused("a.nhdr", header("."), "there is no such file");
   refused("a.nhdr", header("LIST"), "lie in several files");
@@ -329,9 +330,9 @@ TEST_F(DamagedImage, NrrdWhoseDataFileIsAmiss) {
 TEST_F(DamagedImage, NrrdHeaders) {
   refused("a.nrrd", "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 2 2\nspacings: 1 1 1 1\nencoding: raw\n\n" + eight,
           "is an image of 4 dimensions");
-  refused("a.nrrd", nrrd(raw + "\nspace:"), "a.nrrd:7: field 'space' has no value");
-  refused("a.nrrd", nrrd(raw + "\nsizes: 2 2 2"), "stands in line 4 already");
-  refused("a.nrrd", nrrd(raw + "\nsome words"), "a.nrrd:7: 'some words' is no line of a NRRD header");
+  refused("a.nrrd", nrrd(raw_header + "\nspace:"), "a.nrrd:7: field 'space' has no value");
+  refused("a.nrrd", nrrd(raw_header + "\nsizes: 2 2 2"), "stands in line 4 already");
+  refused("a.nrrd", nrrd(raw_header + "\nsome words"), "a.nrrd:7: 'some words' is no line of a NRRD header");
   refused("a.nrrd", nrrd("spacings: 1 1 1\nencoding: bzip2"), "this encoding cannot be read");
   refused("a.nrrd", nrrd("encoding: raw"), "states no voxel spacing");
   refused("a.nrrd", "NRRD0004\n# " + std::string(std::size_t{1} << 21, 'x'), "its header does not end within");

@@ -6,17 +6,19 @@
 #include <numbers>
 
 #include "small_images.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/label_surface.hpp"
 
 namespace tunica::imaging {
 namespace {
 
+using tunica::test::contains;
 using namespace testing;
 
 /// A tube of radius 7 mm between z = -20 and 20 mm with a false lumen at x < 0 of |z| < 14 mm behind a flap of 2.1 mm,
 /// which has two holes of 3 mm radius.
-int dissected(const Point& p) {
+int dissected_tube(const Point& p) {
   if (std::hypot(p[0], p[1]) >= 7 * mm || std::abs(p[2]) >= 20 * mm) return 0;
   const bool hole = std::hypot(p[1], p[2] - 8 * mm) < 3 * mm || std::hypot(p[1], p[2] + 8 * mm) < 3 * mm;
   const bool wall =
@@ -24,7 +26,7 @@ int dissected(const Point& p) {
   return wall ? 0 : p[0] < 0 && std::abs(p[2]) < 14 * mm ? 2 : 1;
 }
 
-const Size3 size{26, 26, 62};
+const Size3 image_size{26, 26, 62};
 
 SurfaceSettings settings() {
   SurfaceSettings result;
@@ -51,10 +53,8 @@ Made make(const LabelImage& image, const SurfaceSettings& asked) {
   return made;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST(FaultyLabels, WithoutAnyAreMeshed) {
-  const auto made = make(image_of(dissected, size, straight), settings());
+  const auto made = make(image_of(dissected_tube, image_size, straight), settings());
   EXPECT_EQ(made.genus, 1) << made.log << made.error;
   EXPECT_EQ(made.surface.ends.size(), 2U);
   EXPECT_EQ(made.surface.tears.size(), 2U);
@@ -64,9 +64,9 @@ TEST(FaultyLabels, ASmallHoleInTheFlapIsClosedAndListed) {
   const auto image = image_of(
       [](const Point& p) {
         if (std::abs(p[0]) < 1.05 * mm && std::hypot(p[1] - 1 * mm, p[2]) < 1.1 * mm) return p[0] < 0 ? 2 : 1;
-        return dissected(p);
+        return dissected_tube(p);
       },
-      size, straight);
+      image_size, straight);
   auto asked = settings();
   const auto closed = make(image, asked);
   EXPECT_EQ(closed.genus, 1) << closed.log << closed.error;
@@ -85,12 +85,12 @@ Label touching() {
 }
 
 TEST(FaultyLabels, LumensThatTouchAllAlongHaveNoFlap) {
-  const auto image = image_of(touching(), size, straight);
+  const auto image = image_of(touching(), image_size, straight);
   EXPECT_TRUE(contains(make(image, settings()).error, "the labels have no flap"));
 }
 
 TEST(FaultyLabels, AFlapIsInsertedWithTheTearsThatAreGiven) {
-  const auto image = image_of(touching(), size, straight);
+  const auto image = image_of(touching(), image_size, straight);
   auto asked = settings();
   asked.flap.insert = 1.8 * mm;
   const auto apart = make(image, asked);
@@ -105,7 +105,8 @@ TEST(FaultyLabels, AFlapIsInsertedWithTheTearsThatAreGiven) {
 
 TEST(FaultyLabels, AMissingSliceIsNamedOrFilled) {
   const auto image =
-      image_of([](const Point& p) { return std::abs(p[2] - 0.35 * mm) < 0.3 * mm ? 0 : dissected(p); }, size, straight);
+      image_of([](const Point& p) { return std::abs(p[2] - 0.35 * mm) < 0.3 * mm ? 0 : dissected_tube(p); }, image_size,
+               straight);
   auto asked = settings();
   EXPECT_TRUE(contains(make(image, asked).error, "slice 31 along axis 3")) << make(image, asked).error;
   asked.repairs.asked[static_cast<std::size_t>(Repair::slices)] = true;
@@ -115,7 +116,8 @@ TEST(FaultyLabels, AMissingSliceIsNamedOrFilled) {
 
 TEST(FaultyLabels, ALabelThatNothingNamesIsAnError) {
   const auto image =
-      image_of([](const Point& p) { return p[2] > 5 * mm && dissected(p) == 2 ? 5 : dissected(p); }, size, straight);
+      image_of([](const Point& p) { return p[2] > 5 * mm && dissected_tube(p) == 2 ? 5 : dissected_tube(p); },
+               image_size, straight);
   auto asked = settings();
   EXPECT_TRUE(contains(make(image, asked).error, "nothing says what they are")) << make(image, asked).error;
   asked.labels.tissue = {5};
@@ -135,8 +137,10 @@ double volume(geometry::TriangleSurface surface) {
 }
 
 TEST(FaultyLabels, ThrombusIsNoLumenButLiesWithinTheWall) {
-  const auto clotted = [](const Point& p) { return dissected(p) == 2 && p[0] < -3.5 * mm ? 3 : dissected(p); };
-  const auto image = image_of(clotted, size, straight);
+  const auto clotted = [](const Point& p) {
+    return dissected_tube(p) == 2 && p[0] < -3.5 * mm ? 3 : dissected_tube(p);
+  };
+  const auto image = image_of(clotted, image_size, straight);
   auto asked = settings();
   EXPECT_TRUE(contains(make(image, asked).error, "give `thrombus: 3` for clotted blood"));
   asked.labels.thrombus = 3;
@@ -154,7 +158,7 @@ TEST(FaultyLabels, ThrombusIsNoLumenButLiesWithinTheWall) {
 }
 
 TEST(FaultyLabels, TheFilterMayBeGivenAsALength) {
-  const auto image = image_of(dissected, size, straight);
+  const auto image = image_of(dissected_tube, image_size, straight);
   auto asked = settings();
   const auto by_voxels = make(image, asked);
   asked.smoothing_length = asked.smoothing * 0.7 * mm;
@@ -167,7 +171,7 @@ TEST(FaultyLabels, TheFilterMayBeGivenAsALength) {
 }
 
 TEST(FaultyLabels, EveryPointOfTheSurfaceKnowsItsLumen) {
-  const auto made = make(image_of(dissected, size, straight), settings());
+  const auto made = make(image_of(dissected_tube, image_size, straight), settings());
   ASSERT_EQ(made.surface.of_false_lumen.size(), made.surface.lumen.points.size());
   for (std::size_t p = 0; p < made.surface.lumen.points.size(); ++p) {
     const auto& x = made.surface.lumen.points[p];
@@ -180,13 +184,13 @@ TEST(FaultyLabels, EveryPointOfTheSurfaceKnowsItsLumen) {
 TEST(FaultyLabels, AThinFlapStaysClosed) {
   const auto image = image_of(
       [](const Point& p) {
-        const int label = dissected(p);
+        const int label = dissected_tube(p);
         const bool flap =
             label == 0 && std::abs(p[0]) < 1.05 * mm && std::hypot(p[0], p[1]) < 7 * mm && std::abs(p[2]) < 13.5 * mm;
         if (!flap || std::abs(p[0] - 0.35 * mm) < 0.3 * mm) return label;  // one voxel is left
         return p[0] < 0 ? 2 : 1;
       },
-      size, straight);
+      image_size, straight);
   const auto made = make(image, settings());
   EXPECT_EQ(made.genus, 1) << made.log << made.error;
 }
@@ -198,10 +202,10 @@ TEST(FaultyLabels, ThickSlicesAndCoarseVoxelsKeepTheTopology) {
                     {"outlet", {{{0, 0, 19 * mm}}, Vec3<double>{{0, 0, 1}}}}};
   auto steps = straight;
   steps[2] = {{0, 0, 2.1 * mm}};
-  const auto thick = make(image_of(dissected, {26, 26, 22}, steps), asked);
+  const auto thick = make(image_of(dissected_tube, {26, 26, 22}, steps), asked);
   EXPECT_EQ(thick.genus, 1) << thick.log << thick.error;
   for (int d = 0; d < 3; ++d) steps[d] = 2.0 * straight[d];
-  const auto coarse = make(image_of(dissected, {14, 14, 32}, steps), asked);
+  const auto coarse = make(image_of(dissected_tube, {14, 14, 32}, steps), asked);
   EXPECT_EQ(coarse.genus, 1) << coarse.log << coarse.error;
 }
 
@@ -213,7 +217,7 @@ TEST(FaultyLabels, ARoundEndIsCutWhereTheVesselIsWhole) {
         const double top = 20 * mm - 4.2 * mm * (1 - std::sqrt(std::max(0.0, 1 - off * off)));
         return off < 1 && p[2] > -20 * mm && p[2] < top;
       },
-      size, straight);
+      image_size, straight);
   auto asked = settings();
   asked.labels.false_lumen = {};
   const auto made = make(image, asked);

@@ -10,7 +10,7 @@ namespace tunica::imaging {
 namespace {
 
 /// Axes turned about an oblique direction; unequal spacings; mirrored on request.
-ImageFrame oblique(bool mirrored) {
+ImageFrame oblique_frame(bool mirrored) {
   const double a = 0.4, b = -0.7, c = std::cos(a), s = std::sin(a), d = std::cos(b), e = std::sin(b);
   const Vec3<double> x{{c, s * d, s * e}}, y{{-s, c * d, c * e}}, z{{0, -e, d}};
   return {{5, 4, 3}, {{-0.0123, 0.0456, 0.789}}, {0.7e-3 * x, 0.8e-3 * y, (mirrored ? -1.25e-3 : 1.25e-3) * z}};
@@ -24,7 +24,7 @@ void expect_equal(const ImageFrame& a, const ImageFrame& b, double tolerance) {
 
 TEST_F(ImageFile, ComesBackFromEveryFormatWithObliqueAxes) {
   for (const bool mirrored : {false, true}) {
-    LabelImage image{oblique(mirrored), {}};
+    LabelImage image{oblique_frame(mirrored), {}};
     for (std::int64_t i = 0; i < image.frame.count(); ++i)
       image.labels.push_back(static_cast<std::int16_t>(i * 7 - 90));
     for (const char* name : {"a.nrrd", "a.nhdr", "a.mha", "a.mhd", "a.nii", "a.nii.gz"}) {

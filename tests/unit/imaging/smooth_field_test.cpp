@@ -12,7 +12,7 @@ namespace tunica::imaging {
 namespace {
 
 using namespace testing;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 SmoothField field_of(const LabelImage& image, double sigma) {
   return smooth_field(lumen_mask(image, {}, 6, silent), sigma);

@@ -10,10 +10,10 @@
 
 namespace tunica::mesh {
 
+using std::numbers::pi;
 using testing::area;
 using testing::expect_sound;
 using testing::volume;
-constexpr double pi = std::numbers::pi;
 
 TEST(Box, IsSoundAndHasExactVolumeAndAreas) {
   const auto mesh = box(3, 2, 4, {{0.3, 0.5, 0.2}}, RegionKind::wall);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "temporary_folder.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "unit/mesh/check_mesh.hpp"
@@ -12,6 +13,7 @@ namespace tunica::mesh {
 namespace {
 
 using test::message_of;
+using tunica::test::contains;
 
 /// Two boxes that touch at x = 1: the lumen fills [0, 1] and the wall [1, 1.5].
 struct Boxes {
@@ -35,8 +37,6 @@ LoadedMesh join_boxes(const Boxes& b, double tolerance = 1e-3, const std::string
 std::string refusal(const Boxes& b, double tolerance = 1e-3, const std::string& wall_face = "wall_x_min") {
   return message_of<InputError>([&] { join_boxes(b, tolerance, wall_face); });
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "temporary_folder.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "unit/mesh/check_mesh.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 using test::message_of;
 using test::TemporaryFolder;
+using tunica::test::contains;
 
 enum class Encoding { ascii, binary, swapped };
 
@@ -158,8 +160,6 @@ mesh::LoadedMesh read_text(const std::string& content, const GmshOptions& with =
 std::string refusal(const Model& model, const GmshOptions& with = options) {
   return message_of<InputError>([&] { read_text(msh(model, Encoding::ascii), with); });
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "temporary_folder.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 using test::message_of;
 using test::TemporaryFolder;
+using tunica::test::contains;
 namespace fs = std::filesystem;
 
 /// How the written files deviate from a sound mesh.
@@ -139,8 +141,6 @@ mesh::LoadedMesh read_with(const Flaws& flaws) {
 std::string refusal(const Flaws& flaws) {
   return message_of<InputError>([&] { read_with(flaws); });
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 void expect_same_as_block(const mesh::LoadedMesh& mesh) {
   mesh::testing::expect_sound(mesh.data);

@@ -17,6 +17,7 @@
 #include <cstring>
 
 #include "temporary_folder.hpp"
+#include "text.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh_io/vtk_messages.hpp"
 
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 using test::message_of;
 using test::slurp;
 using test::TemporaryFolder;
+using tunica::test::contains;
 
 enum class Data { ascii, binary, appended_raw, appended_base64 };
 enum class Packing { none, zlib, lz4, lzma };
@@ -120,8 +122,6 @@ std::string refusal(const std::string& content, bool surface = false) {
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << text;
   return text;
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 void expect_refusal(const std::string& content, const std::string& why, bool surface = false) {
   const auto text = refusal(content, surface);

@@ -18,7 +18,7 @@ using geometry::Point;
 
 const test::BlockVessel small{.across = 7, .along = 9, .flap_at = 3, .from = 2, .to = 8, .hole = false};
 
-std::set<std::array<geometry::Index, 3>> sorted(std::vector<geometry::Triangle> triangles) {
+std::set<std::array<geometry::Index, 3>> sorted_triangles(std::vector<geometry::Triangle> triangles) {
   for (auto& t : triangles) std::sort(t.begin(), t.end());
   return {triangles.begin(), triangles.end()};
 }
@@ -36,7 +36,7 @@ TEST(Fill, KeepsVolumesAndTrianglesOfALumenInTwoParts) {
   const auto mesh = tetrahedralise(complex, [](const Point&) { return 1e-3; }, {});
   for (const int label : {geometry::lumen_label, geometry::wall_label})
     EXPECT_NEAR(test::volume(mesh, label) / test::volume(block, label), 1, 1e-12) << label;
-  EXPECT_EQ(sorted(surface_of_mesh(mesh)), sorted(complex.triangles));
+  EXPECT_EQ(sorted_triangles(surface_of_mesh(mesh)), sorted_triangles(complex.triangles));
   for (const auto& t : mesh.elements) EXPECT_GT(mesh::volume(mesh.points, t), 0);
   EXPECT_EQ(mesh.on_curve.size(), mesh.points.size());
   for (std::size_t n = 0; n < mesh.points.size(); ++n) {

@@ -1,4 +1,4 @@
-// Boundary layers on a square duct of one element size, where their heights are known.
+// Boundary layers on a square flapped_duct of one element size, where their heights are known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Point;
 
-const test::BlockVessel duct{.across = 9, .along = 6, .flap_at = 4, .from = 6, .to = 6, .hole = false};
+const test::BlockVessel flapped_duct{.across = 9, .along = 6, .flap_at = 4, .from = 6, .to = 6, .hole = false};
 
 /// Node `level` layers away from an interface node; layers lie one after the other behind the old nodes.
 struct Stacks {
@@ -35,7 +35,7 @@ struct Stacks {
 TEST(LayerHeights, GrowByTheirFactorFromTheWallInwards) {
   for (const auto& settings : {BoundaryLayers{.layers = 3, .thickness = 0.2e-3, .growth = 1.5},
                                BoundaryLayers{.layers = 4, .thickness = 0.3e-3, .growth = 1}}) {
-    const auto before = test::block_vessel(duct);
+    const auto before = test::block_vessel(flapped_duct);
     auto mesh = before;
     const auto made = add_boundary_layers(mesh, settings);
     EXPECT_NEAR(made.median, settings.thickness, 1e-12);
@@ -50,7 +50,7 @@ TEST(LayerHeights, GrowByTheirFactorFromTheWallInwards) {
         const auto next = point(level + 1) - point(level);
         EXPECT_NEAR(norm(next - std::pow(settings.growth, level) * first), 0, 1e-12);
       }
-      // In the ends of the duct nodes stay there, and away from its edges they go straight inwards.
+      // In the ends of the flapped_duct nodes stay there, and away from its edges they go straight inwards.
       const Point x = 1e3 * point(0);
       if (x[2] < 1e-9 || x[2] > 6 - 1e-9) {
         EXPECT_NEAR(first[2], 0, 1e-15);
@@ -66,7 +66,7 @@ TEST(LayerHeights, GrowByTheirFactorFromTheWallInwards) {
 }
 
 TEST(LayerHeights, StayInThePlanesOfObliqueEnds) {
-  auto before = test::block_vessel(duct);
+  auto before = test::block_vessel(flapped_duct);
   for (auto& x : before.points) x[2] += 0.4 * x[0];
   auto mesh = before;
   add_boundary_layers(mesh, {.layers = 2, .thickness = 0.2e-3, .growth = 1.2});
@@ -87,7 +87,7 @@ TEST(LayerHeights, StayInThePlanesOfObliqueEnds) {
 }
 
 TEST(LayerHeights, AreBoundedByTheEdgesNearby) {
-  auto mesh = test::block_vessel(duct);
+  auto mesh = test::block_vessel(flapped_duct);
   // Edges of 1 mm: at most 0.6 mm.
   const auto made = add_boundary_layers(mesh, {.layers = 1, .thickness = 2e-3, .growth = 1});
   EXPECT_LE(made.largest, 0.6e-3 + 1e-15);
@@ -96,7 +96,7 @@ TEST(LayerHeights, AreBoundedByTheEdgesNearby) {
 }
 
 TEST(LayerHeights, DoNotDependOnPlaceAndDirection) {
-  auto straight = test::block_vessel(duct), turned = straight;
+  auto straight = test::block_vessel(flapped_duct), turned = straight;
   const double c = std::cos(0.8), s = std::sin(0.8);
   const auto move = [&](const Point& x) { return Point{{c * x[0] - s * x[2] + 0.2, x[1] + 0.1, s * x[0] + c * x[2]}}; };
   for (auto& x : turned.points) x = move(x);

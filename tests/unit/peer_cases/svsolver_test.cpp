@@ -57,7 +57,7 @@ class SvSolver : public testing::Test {
   }
 };
 
-testing::AssertionResult has(const std::string& text, const std::string& part) {
+testing::AssertionResult states(const std::string& text, const std::string& part) {
   std::string plain;  // without comments
   for (std::size_t at = 0; at < text.size();) {
     const auto end = std::min(text.find('\n', at), text.size());
@@ -71,56 +71,56 @@ testing::AssertionResult has(const std::string& text, const std::string& part) {
   return testing::AssertionFailure() << "`" << part << "` is not in\n" << plain;
 }
 
-}  // namespace
-
 TEST_F(SvSolver, ReadsASimulationOfAProject) {
   const auto yaml = text();
-  EXPECT_TRUE(has(yaml, "volume: mesh-complete/mesh-complete.mesh.vtu\n"));
-  EXPECT_TRUE(has(yaml, "walls_combined: mesh-complete/walls_combined.vtp\n"));
-  EXPECT_TRUE(has(yaml, "density: 1.06 g/cm^3\n"));
-  EXPECT_TRUE(has(yaml, "inflow:\n    flow:\n      table:\n        file: inflow.flow\n        format: simvascular\n"));
-  EXPECT_TRUE(has(yaml, "interpolation: fourier\n        period: 1.1 s\n        modes: 10\n"));
-  EXPECT_TRUE(has(yaml, "profile: parabolic\n"));
-  EXPECT_TRUE(has(yaml, "left:\n    resistance:\n      resistance: 1500 dyn s/cm^5\n"));
-  EXPECT_TRUE(has(yaml,
-                  "right:\n    rcr:\n      proximal: 121 dyn s/cm^5\n      capacitance: 1.5e-5 cm^5/dyn\n"
-                  "      distal: 1212 dyn s/cm^5\n      distal_pressure: 7 dyn/cm^2\n"
-                  "      initial_pressure: 80 dyn/cm^2\n"));
-  EXPECT_TRUE(has(yaml, "walls_combined:\n    no_slip: {}\n"));
-  EXPECT_TRUE(has(yaml, "step: 0.001 s\n  steps: 200\n"));
-  EXPECT_TRUE(has(yaml, "every: 10\n"));
+  EXPECT_TRUE(states(yaml, "volume: mesh-complete/mesh-complete.mesh.vtu\n"));
+  EXPECT_TRUE(states(yaml, "walls_combined: mesh-complete/walls_combined.vtp\n"));
+  EXPECT_TRUE(states(yaml, "density: 1.06 g/cm^3\n"));
+  EXPECT_TRUE(
+      states(yaml, "inflow:\n    flow:\n      table:\n        file: inflow.flow\n        format: simvascular\n"));
+  EXPECT_TRUE(states(yaml, "interpolation: fourier\n        period: 1.1 s\n        modes: 10\n"));
+  EXPECT_TRUE(states(yaml, "profile: parabolic\n"));
+  EXPECT_TRUE(states(yaml, "left:\n    resistance:\n      resistance: 1500 dyn s/cm^5\n"));
+  EXPECT_TRUE(states(yaml,
+                     "right:\n    rcr:\n      proximal: 121 dyn s/cm^5\n      capacitance: 1.5e-5 cm^5/dyn\n"
+                     "      distal: 1212 dyn s/cm^5\n      distal_pressure: 7 dyn/cm^2\n"
+                     "      initial_pressure: 80 dyn/cm^2\n"));
+  EXPECT_TRUE(states(yaml, "walls_combined:\n    no_slip: {}\n"));
+  EXPECT_TRUE(states(yaml, "step: 0.001 s\n  steps: 200\n"));
+  EXPECT_TRUE(states(yaml, "every: 10\n"));
 }
 
 TEST_F(SvSolver, NamesWhatIsMissing) {
   solver += "Deformable Wall: True\n";
-  EXPECT_TRUE(has(refusal(), "coupled momentum"));
+  EXPECT_TRUE(states(refusal(), "coupled momentum"));
 }
 
 TEST_F(SvSolver, RefusesSlips) {
   solver += "Tau Martix: Diagonal\n";
-  EXPECT_TRUE(has(refusal(), "did you mean Tau Matrix"));
+  EXPECT_TRUE(states(refusal(), "did you mean Tau Matrix"));
   solver = solver.substr(0, solver.find("Tau Martix")) + "Density: 1.05\n";
-  EXPECT_TRUE(has(refusal(), "stands in line 1"));
+  EXPECT_TRUE(states(refusal(), "stands in line 1"));
   solver = "Number of RCR Surfaces 1\n";
-  EXPECT_TRUE(has(refusal(), "has no colon"));
+  EXPECT_TRUE(states(refusal(), "has no colon"));
 }
 
 TEST_F(SvSolver, RefusesWindkesselsThatDoNotFit) {
   windkessels += "2\n1\n1\n1\n0 0\n1 0\n";
-  EXPECT_TRUE(has(refusal(), "holds 2 Windkessels, solver.inp lists 1 surfaces"));
+  EXPECT_TRUE(states(refusal(), "holds 2 Windkessels, solver.inp lists 1 surfaces"));
   windkessels = "2\n2\n121\n1.5e-5\n1212\n0.0 7\n1.0 8\n";
-  EXPECT_TRUE(has(refusal(), "a distal pressure that changes in time"));
+  EXPECT_TRUE(states(refusal(), "a distal pressure that changes in time"));
   windkessels = "2\n2\n121\n";
-  EXPECT_TRUE(has(refusal(), "ends within a Windkessel"));
+  EXPECT_TRUE(states(refusal(), "ends within a Windkessel"));
   windkessels = "2\n2\n121\n1.5e-5\n1212\n0.0 7\n1.0 7\n";
   presolver.replace(presolver.find("right.vtp 0"), 11, "right.vtp 9");
-  EXPECT_TRUE(has(refusal(), "gives a pressure to a face"));
+  EXPECT_TRUE(states(refusal(), "gives a pressure to a face"));
 }
 
 TEST_F(SvSolver, ProjectsWithoutASimulationSaySo) {
   write();
   std::filesystem::remove_all(folder());
-  EXPECT_TRUE(has(message_of<InputError>([&] { read_peer_file(project.path()); }), "without a simulation"));
+  EXPECT_TRUE(states(message_of<InputError>([&] { read_peer_file(project.path()); }), "without a simulation"));
 }
 
+}  // namespace
 }  // namespace tunica::peer_cases

@@ -10,7 +10,7 @@
 namespace tunica::stages {
 namespace {
 
-constexpr double angle = 0.6;
+constexpr double fibre_angle = 0.6;
 
 mesh::MeshData tube() {
   mesh::TubeSizes sizes;
@@ -49,8 +49,8 @@ TEST(BeatFibres, LieOnTheWallAtTheAngleOfTheLaw) {
       EXPECT_NEAR(norm(d), 1, 1e-12);
       // The frame is that of the element, whose centroid is half a cell off.
       const double along = d[2], around = (x[0] * d[1] - x[1] * d[0]) / r;
-      EXPECT_NEAR(std::abs(around), std::cos(angle), 2e-3);
-      EXPECT_NEAR(along * around, sign * std::sin(angle) * std::cos(angle), 2e-3);
+      EXPECT_NEAR(std::abs(around), std::cos(fibre_angle), 2e-3);
+      EXPECT_NEAR(along * around, sign * std::sin(fibre_angle) * std::cos(fibre_angle), 2e-3);
     }
   }
 }

@@ -16,7 +16,7 @@ using test::ExponentialFibre;
 using test::some_state;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-using D = Dual<double, 1>;  // one unknown at a time: sixteen at once compile for a minute
+using InOne = Dual<double, 1>;  // one unknown at a time: sixteen at once compile for a minute
 using Matrix = fe::ElementMatrix<double>;
 using Vector = fe::ElementVector<double>;
 
@@ -37,8 +37,8 @@ ElementState<T> shifted(const ElementState<double>& e, const Coefficients& c, co
 /// function(dx) with the derivative along unknown n.
 template <class Function>
 auto derivative(int n, const Function& function) {
-  D dx[16];
-  dx[n] = D::variable(0.0, 0);
+  InOne dx[16];
+  dx[n] = InOne::variable(0.0, 0);
   return function(dx);
 }
 
@@ -81,8 +81,8 @@ void check_tangent(const L& law, const Body& body, const Coefficients& c) {
     Matrix exact;
     double size = 0.0;
     for (int n = 0; n < 16; ++n) {
-      const auto column = derivative(n, [&](const D(&dx)[16]) {
-        fe::ElementVector<D> v;
+      const auto column = derivative(n, [&](const InOne(&dx)[16]) {
+        fe::ElementVector<InOne> v;
         Element::residual(shifted(e, c, dx), law, body, c, v);
         return v;
       });
@@ -247,10 +247,10 @@ TEST(WallElement, DisplacementElementForceIsTheDerivativeOfTheEnergy) {
   Vector r;
   displacement_residual(e, ExponentialFibre{}, body, r);
   for (int n = 0; n < 16; ++n) {
-    const D energy = derivative(n, [&](const D(&dx)[16]) {
-      const ElementState<D> s = shifted(e, {}, dx);
-      const Kinematics<D> k = kinematics(s);
-      return s.reference.volume * (ExponentialFibre{}.energy(k.C_bar) + D(20.0) * body.volumetric.unit_energy(k.J));
+    const InOne energy = derivative(n, [&](const InOne(&dx)[16]) {
+      const ElementState<InOne> s = shifted(e, {}, dx);
+      const Kinematics<InOne> k = kinematics(s);
+      return s.reference.volume * (ExponentialFibre{}.energy(k.C_bar) + InOne(20.0) * body.volumetric.unit_energy(k.J));
     });
     if (n % 4 < 3) {
       EXPECT_NEAR(r.r[n / 4][n % 4], energy.d[0], 1e-13);

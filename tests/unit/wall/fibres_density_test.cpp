@@ -10,7 +10,7 @@
 namespace tunica::wall {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Mean over the sphere of rho(N) g(N), by nested adaptive quadrature in elevation and azimuth about e3.
 template <class G>
@@ -28,19 +28,19 @@ double mean(const Density& d, const G& g) {
   return (Rule::integrate(row, -0.5 * pi, 0.0, 6, 1e-10) + Rule::integrate(row, 0.0, 0.5 * pi, 6, 1e-10)) / (4.0 * pi);
 }
 
-const auto one = [](const Vec3<double>&) { return 1.0; };
+const auto evenly = [](const Vec3<double>&) { return 1.0; };
 
 TEST(FibreDensity, VonMisesHasMeanOne) {
   const Vec3<double> e3{{0.0, 0.0, 1.0}}, oblique{{0.48, 0.6, 0.64}};
   for (const double b : {0.0, 1e-9, 1e-3, 1.0, 3.0, 9.0, 19.999, 20.001, 60.0, 400.0})
-    EXPECT_NEAR(mean(VonMises{b, e3}, one), 1.0, 1e-11) << b;
-  for (const double b : {0.5, 3.0, 30.0}) EXPECT_NEAR(mean(VonMises{b, oblique}, one), 1.0, 1e-8) << b;
+    EXPECT_NEAR(mean(VonMises{b, e3}, evenly), 1.0, 1e-11) << b;
+  for (const double b : {0.5, 3.0, 30.0}) EXPECT_NEAR(mean(VonMises{b, oblique}, evenly), 1.0, 1e-8) << b;
 }
 
 TEST(FibreDensity, BivariateHasMeanOne) {
   for (const double a : {0.0, 1e-9, 2.0, 49.9, 50.1, 300.0})
     for (const double b : {0.0, 1e-9, 3.0, 40.0, 500.0})
-      EXPECT_NEAR(mean(BivariateVonMises{a, b, 0.6}, one), 1.0, 1e-9) << a << ' ' << b;
+      EXPECT_NEAR(mean(BivariateVonMises{a, b, 0.6}, evenly), 1.0, 1e-9) << a << ' ' << b;
 }
 
 TEST(FibreDensity, FollowsTheExponentials) {

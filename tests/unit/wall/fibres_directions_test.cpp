@@ -18,7 +18,7 @@ namespace {
 using test::isotropic;
 using test::sum;
 
-const Vec3<double> e1{{1.0, 0.0, 0.0}}, e3{{0.0, 0.0, 1.0}};
+const Vec3<double> along_1{{1.0, 0.0, 0.0}}, along_3{{0.0, 0.0, 1.0}};
 
 std::vector<Density> densities() {
   std::vector<Density> all;
@@ -73,7 +73,7 @@ TEST(FibreDirections, ReproducesThePublishedSet) {
   const auto table = test::read_table("dfd256_vonMises_b3_E3.csv");
   if (table.empty()) GTEST_SKIP() << "no reference data in " << TUNICA_SHARED_DATA;
   ASSERT_EQ(table.at("N1").size(), 256u);
-  const Density d = VonMises{3.0, e3};
+  const Density d = VonMises{3.0, along_3};
   const DirectionSet set = octahedral(d, 256), midpoint = test::midpoint_octahedral(d, 256, 4);
   double largest = 0.0;
   for (std::size_t n = 0; n < 256; ++n) {
@@ -120,7 +120,7 @@ TEST(FibreDirections, ProductRulesHaveTheStructureTensor) {
 TEST(FibreDirections, ProductRulesTurnWithTheMean) {
   const double angle = 0.9, c = std::cos(angle), s = std::sin(angle);
   const std::pair<Density, Density> pairs[] = {{BivariateVonMises{2.0, 12.0, 0.0}, BivariateVonMises{2.0, 12.0, angle}},
-                                               {VonMises{3.0, e1}, VonMises{3.0, {{c, s, 0.0}}}}};
+                                               {VonMises{3.0, along_1}, VonMises{3.0, {{c, s, 0.0}}}}};
   for (const auto& [first, second] : pairs) {
     const DirectionSet a = product_rule(first, 4, 16), b = product_rule(second, 4, 16);
     for (std::size_t n = 0; n < a.weights.size(); ++n) {

@@ -12,7 +12,7 @@ namespace {
 
 const FibreFrame along_e1 = specimen_axes({{1.0, 0.0, 0.0}});
 const FibreFrame oblique = orthonormal_frame({{1.0, 0.5, 0.3}}, {{-0.4, 1.0, 0.2}}, "test");
-const Volumetric incompressible;
+const Volumetric no_change_of_volume;
 
 Law neo_hooke() { return NeoHooke{50e3}; }
 
@@ -39,15 +39,16 @@ PathPoint rest(const Law& law, const Volumetric& volumetric) { return deformed(l
 TEST(MaterialPaths, ClosedFormsOfNeoHooke) {
   const double mu = 50e3, l = 1.3;
   const Law law = neo_hooke();
-  const PathPoint start = rest(law, incompressible);
-  EXPECT_NEAR(stretched(law, incompressible, along_e1, {l, {}}, start).state.cauchy[0], mu * (l * l - 1.0 / l), 1e-6);
-  const PathPoint equal = stretched(law, incompressible, along_e1, {l, l}, start);
+  const PathPoint start = rest(law, no_change_of_volume);
+  EXPECT_NEAR(stretched(law, no_change_of_volume, along_e1, {l, {}}, start).state.cauchy[0], mu * (l * l - 1.0 / l),
+              1e-6);
+  const PathPoint equal = stretched(law, no_change_of_volume, along_e1, {l, l}, start);
   EXPECT_NEAR(equal.state.cauchy[0], mu * (l * l - std::pow(l, -4)), 1e-6);
   EXPECT_NEAR(equal.state.cauchy[1], equal.state.cauchy[0], 1e-6);
-  const PathPoint planar = stretched(law, incompressible, along_e1, {l, 1.0}, start);
+  const PathPoint planar = stretched(law, no_change_of_volume, along_e1, {l, 1.0}, start);
   EXPECT_NEAR(planar.state.cauchy[0], mu * (l * l - 1.0 / (l * l)), 1e-6);
   EXPECT_NEAR(planar.state.cauchy[1], mu * (1.0 - 1.0 / (l * l)), 1e-6);
-  const PathPoint shear = sheared(law, incompressible, along_e1, 0.4);
+  const PathPoint shear = sheared(law, no_change_of_volume, along_e1, 0.4);
   EXPECT_NEAR(shear.state.cauchy[3], 0.4 * mu, 1e-6);
   EXPECT_NEAR(shear.state.cauchy[0] - shear.state.cauchy[1], 0.16 * mu, 1e-6);
   EXPECT_NEAR(shear.state.cauchy[2], 0.0, 1e-6);
@@ -57,7 +58,7 @@ TEST(MaterialPaths, ClosedFormsOfNeoHooke) {
 TEST(MaterialPaths, FreeFacesBearNoTraction) {
   for (const Law& law : {neo_hooke(), anisotropic(), unsplit(), fung()})
     for (const Volumetric& volumetric :
-         {incompressible, Volumetric{.bulk_modulus = 2e5}, Volumetric{VolumetricEnergy::miehe, 5e9}})
+         {no_change_of_volume, Volumetric{.bulk_modulus = 2e5}, Volumetric{VolumetricEnergy::miehe, 5e9}})
       for (const std::optional<double> across : {std::optional<double>{}, std::optional<double>{1.1}}) {
         const PathPoint p = stretched(law, volumetric, oblique, {1.25, across}, rest(law, volumetric));
         const double stress = norm(p.first_piola_kirchhoff * oblique.e1);
@@ -77,11 +78,11 @@ TEST(MaterialPaths, FreeFacesBearNoTraction) {
       }
 }
 
-/// dPsi/dstretch = P11: free faces do no work, nor does the pressure of an incompressible law.
+/// dPsi/dstretch = P11: free faces do no work, nor does the pressure of an no_change_of_volume law.
 TEST(MaterialPaths, EnergyIsTheWorkOfTheLoad) {
   const double h = 1e-4;
   for (const Law& law : {anisotropic(), unsplit(), fung()})
-    for (const Volumetric& volumetric : {incompressible, Volumetric{.bulk_modulus = 2e5}}) {
+    for (const Volumetric& volumetric : {no_change_of_volume, Volumetric{.bulk_modulus = 2e5}}) {
       const PathPoint at = stretched(law, volumetric, oblique, {1.15, {}}, rest(law, volumetric));
       const double slope = (stretched(law, volumetric, oblique, {1.15 + h, {}}, at).energy -
                             stretched(law, volumetric, oblique, {1.15 - h, {}}, at).energy) /
@@ -93,7 +94,7 @@ TEST(MaterialPaths, EnergyIsTheWorkOfTheLoad) {
 
 TEST(MaterialPaths, NewtonConvergesQuadratically) {
   const Law law = fung();  // smooth, so that nothing but the tangent decides
-  for (const Volumetric& volumetric : {incompressible, Volumetric{.bulk_modulus = 5e9}}) {
+  for (const Volumetric& volumetric : {no_change_of_volume, Volumetric{.bulk_modulus = 5e9}}) {
     const PathPoint p = stretched(law, volumetric, oblique, {1.1, {}}, rest(law, volumetric));
     ASSERT_LE(p.residuals.size(), 7u);
     int tested = 0;
@@ -119,7 +120,7 @@ TEST(MaterialPaths, StiffFibresAreReachedInOneCall) {
 
 TEST(MaterialPaths, ShearedAndGivenStates) {
   const Law law = anisotropic();
-  const PathPoint p = sheared(law, incompressible, oblique, 0.3);
+  const PathPoint p = sheared(law, no_change_of_volume, oblique, 0.3);
   EXPECT_NEAR(dot(oblique.e3, p.state.cauchy * oblique.e3), 0.0, 1e-6) << "the third face bears no normal traction";
   EXPECT_GT(std::abs(dot(oblique.e2, p.state.cauchy * oblique.e2)), 1e3);
   EXPECT_NEAR(dot(oblique.e1, p.F * oblique.e2), 0.3, 1e-12);
@@ -141,7 +142,7 @@ TEST(MaterialPaths, FailureIsAnError) {
   for (const auto& c : cases) {
     const Law law = anisotropic(c.k2);
     try {
-      stretched(law, incompressible, along_e1, c.stretches, rest(law, incompressible));
+      stretched(law, no_change_of_volume, along_e1, c.stretches, rest(law, no_change_of_volume));
       FAIL() << "a stretch of " << c.stretches.along;
     } catch (const SolverError& error) {
       EXPECT_NE(std::string(error.what()).find("no equilibrium at a stretch of"), std::string::npos) << error.what();

@@ -11,7 +11,7 @@ namespace tunica::wall {
 namespace {
 
 using test::ExponentialFibre;
-using D = Dual<double, 1>;
+using InOne = Dual<double, 1>;
 
 const Symmetric<double> S0{{3.0, -1.0, 2.0, 0.7, -0.4, 1.1}};
 const Mat3<double> F0{{{1.1, 0.05, -0.02}, {0.1, 0.95, 0.03}, {-0.04, 0.02, 1.07}}};
@@ -35,12 +35,12 @@ TEST(Prestress, ForceIsTheDerivativeOfItsEnergyAndTangentThatOfTheForce) {
   fe::ElementMatrix<double> k{};
   add_prestress_residual(e, S0, r);
   add_prestress_tangent(e, S0, c, k);
-  Symmetric<D> S0_dual;
-  for (int i = 0; i < voigt_size; ++i) S0_dual[i] = D(S0[i]);
+  Symmetric<InOne> S0_dual;
+  for (int i = 0; i < voigt_size; ++i) S0_dual[i] = InOne(S0[i]);
   for (int n = 0; n < 12; ++n) {
-    EXPECT_NEAR(r.r[n / 3][n % 3], prestress_energy(shifted<D>(e, n, 1.0), S0_dual).d[0], 1e-13);
-    fe::ElementVector<D> varied{};
-    add_prestress_residual(shifted<D>(e, n, c.displacement), S0_dual, varied);
+    EXPECT_NEAR(r.r[n / 3][n % 3], prestress_energy(shifted<InOne>(e, n, 1.0), S0_dual).d[0], 1e-13);
+    fe::ElementVector<InOne> varied{};
+    add_prestress_residual(shifted<InOne>(e, n, c.displacement), S0_dual, varied);
     for (int m = 0; m < 12; ++m)
       EXPECT_NEAR(k.k[m / 3][n / 3][m % 3][n % 3], varied.r[m / 3][m % 3].d[0], 1e-13) << m << ", " << n;
   }

@@ -8,7 +8,7 @@
 namespace tunica::wall::quadratic {
 namespace {
 
-using D = Dual<double, 18>;
+using InMotions = Dual<double, 18>;
 
 SurfaceState<double> some_triangle(std::mt19937& random, double displacement = 0.2) {
   SurfaceState<double> s;
@@ -22,19 +22,20 @@ SurfaceState<double> some_triangle(std::mt19937& random, double displacement = 0
   return s;
 }
 
-SurfaceState<D> shifted(const SurfaceState<double>& s, double du_dx, double dvelocity_dx) {
-  SurfaceState<D> r;
+SurfaceState<InMotions> shifted(const SurfaceState<double>& s, double du_dx, double dvelocity_dx) {
+  SurfaceState<InMotions> r;
   for (int a = 0; a < 6; ++a)
     for (int i = 0; i < 3; ++i) {
-      const D dx = D::variable(0.0, 3 * a + i);
-      r.X[a][i] = D(s.X[a][i]);
-      r.u[a][i] = D(s.u[a][i]) + D(du_dx) * dx;
-      r.velocity[a][i] = D(s.velocity[a][i]) + D(dvelocity_dx) * dx;
+      const InMotions dx = InMotions::variable(0.0, 3 * a + i);
+      r.X[a][i] = InMotions(s.X[a][i]);
+      r.u[a][i] = InMotions(s.u[a][i]) + InMotions(du_dx) * dx;
+      r.velocity[a][i] = InMotions(s.velocity[a][i]) + InMotions(dvelocity_dx) * dx;
     }
   return r;
 }
 
-void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k, const SurfaceVector<D>& exact) {
+void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k,
+                  const SurfaceVector<InMotions>& exact) {
   for (int a = 0; a < 6; ++a)
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(r.r[a][i], exact.r[a][i].value, 1e-14);
@@ -48,9 +49,9 @@ TEST(QuadraticWallSurface, FollowerPressureTangent) {
   const auto s = some_triangle(random);
   SurfaceVector<double> r{};
   SurfaceMatrix<double> k{};
-  SurfaceVector<D> exact{};
+  SurfaceVector<InMotions> exact{};
   add_follower_pressure(s, 2.5, 0.7, r, &k);
-  add_follower_pressure(shifted(s, 0.7, 0.0), D(2.5), 0.0, exact, nullptr);
+  add_follower_pressure(shifted(s, 0.7, 0.0), InMotions(2.5), 0.0, exact, nullptr);
   expect_equal(r, k, exact);
 }
 
@@ -60,9 +61,11 @@ TEST(QuadraticWallSurface, TissueSupportTangent) {
     const auto s = some_triangle(random);
     SurfaceVector<double> r{};
     SurfaceMatrix<double> k{};
-    SurfaceVector<D> exact{};
+    SurfaceVector<InMotions> exact{};
     add_support(s, TissueSupport<double>{3.0, 0.8, 1.5, normal_only}, 0.4, 1.3, r, &k);
-    add_support(shifted(s, 0.4, 1.3), TissueSupport<D>{D(3.0), D(0.8), D(1.5), normal_only}, 0.0, 0.0, exact, nullptr);
+    add_support(shifted(s, 0.4, 1.3),
+                TissueSupport<InMotions>{InMotions(3.0), InMotions(0.8), InMotions(1.5), normal_only}, 0.0, 0.0, exact,
+                nullptr);
     expect_equal(r, k, exact);
   }
 }

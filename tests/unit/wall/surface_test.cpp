@@ -8,7 +8,7 @@
 namespace tunica::wall {
 namespace {
 
-using D = Dual<double, 9>;
+using InMotions = Dual<double, 9>;
 
 SupportState<double> some_triangle(std::mt19937& random) {
   SupportState<double> s;
@@ -22,19 +22,20 @@ SupportState<double> some_triangle(std::mt19937& random) {
 }
 
 /// The state as a function of the unknown: du/dx and d(du/dt)/dx are the two factors.
-SupportState<D> shifted(const SupportState<double>& s, double du_dx, double dvelocity_dx) {
-  SupportState<D> r;
+SupportState<InMotions> shifted(const SupportState<double>& s, double du_dx, double dvelocity_dx) {
+  SupportState<InMotions> r;
   for (int a = 0; a < 3; ++a)
     for (int i = 0; i < 3; ++i) {
-      const D dx = D::variable(0.0, 3 * a + i);
-      r.X[a][i] = D(s.X[a][i]);
-      r.u[a][i] = D(s.u[a][i]) + D(du_dx) * dx;
-      r.velocity[a][i] = D(s.velocity[a][i]) + D(dvelocity_dx) * dx;
+      const InMotions dx = InMotions::variable(0.0, 3 * a + i);
+      r.X[a][i] = InMotions(s.X[a][i]);
+      r.u[a][i] = InMotions(s.u[a][i]) + InMotions(du_dx) * dx;
+      r.velocity[a][i] = InMotions(s.velocity[a][i]) + InMotions(dvelocity_dx) * dx;
     }
   return r;
 }
 
-void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k, const SurfaceVector<D>& exact) {
+void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k,
+                  const SurfaceVector<InMotions>& exact) {
   for (int a = 0; a < 3; ++a)
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(r.r[a][i], exact.r[a][i].value, 1e-14);
@@ -46,16 +47,16 @@ void expect_equal(const SurfaceVector<double>& r, const SurfaceMatrix<double>& k
 TEST(WallSurface, FollowerPressureTangent) {
   std::mt19937 random(1);
   const SupportState<double> s = some_triangle(random);
-  const SupportState<D> sd = shifted(s, 0.7, 0.0);
+  const SupportState<InMotions> sd = shifted(s, 0.7, 0.0);
   Vec3<double> x[3];
-  Vec3<D> xd[3];
+  Vec3<InMotions> xd[3];
   for (int a = 0; a < 3; ++a) x[a] = s.X[a] + s.u[a], xd[a] = sd.X[a] + sd.u[a];
   SurfaceVector<double> r{};
   SurfaceMatrix<double> k{};
-  SurfaceVector<D> exact{};
+  SurfaceVector<InMotions> exact{};
   add_pressure(x, 2.5, r);
   add_pressure_tangent(x, 2.5, 0.7, k);
-  add_pressure(xd, D(2.5), exact);
+  add_pressure(xd, InMotions(2.5), exact);
   expect_equal(r, k, exact);
 }
 
@@ -65,10 +66,11 @@ TEST(WallSurface, TissueSupportTangent) {
     const SupportState<double> s = some_triangle(random);
     SurfaceVector<double> r{};
     SurfaceMatrix<double> k{};
-    SurfaceVector<D> exact{};
+    SurfaceVector<InMotions> exact{};
     add_support(s, TissueSupport<double>{3.0, 0.8, 1.5, normal_only}, r);
     add_support_tangent(s, TissueSupport<double>{3.0, 0.8, 1.5, normal_only}, 0.4, 1.3, k);
-    add_support(shifted(s, 0.4, 1.3), TissueSupport<D>{D(3.0), D(0.8), D(1.5), normal_only}, exact);
+    add_support(shifted(s, 0.4, 1.3),
+                TissueSupport<InMotions>{InMotions(3.0), InMotions(0.8), InMotions(1.5), normal_only}, exact);
     expect_equal(r, k, exact);
   }
 }

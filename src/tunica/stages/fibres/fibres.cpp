@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tunica/artifacts/manifest.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/case/case_text.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/config/nearest.hpp"
@@ -26,7 +27,7 @@ namespace tunica::stages::fibres {
 
 namespace {
 
-constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+using unit::mm, unit::degree;
 
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {

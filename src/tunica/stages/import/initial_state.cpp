@@ -20,20 +20,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* remedy = "give the field on the points of the mesh, or remove the key";
+constexpr const char* field_remedy = "give the field on the points of the mesh, or remove the key";
 
 /// A field of one mesh, [point][component], in SI units.
 std::vector<double> read_field(const fs::path& file, const char* name, int components, double factor,
                                std::span<const Vec3<double>> points, double metres) {
   auto cells = mesh_io::read_vtk_volume(file, {}, {name});
-  check_points(file, cells.points, points, metres, remedy);
+  check_points(file, cells.points, points, metres, field_remedy);
   auto& field = cells.point_fields.at(0);
   if (field.components != components)
     throw InputError(file.string(),
                      fmt::format("`{}` has {} components, {} are expected", name, field.components, components),
-                     remedy);
+                     field_remedy);
   for (double& value : field.values) {
-    if (!std::isfinite(value)) throw InputError(file.string(), fmt::format("`{}` is not finite", name), remedy);
+    if (!std::isfinite(value)) throw InputError(file.string(), fmt::format("`{}` is not finite", name), field_remedy);
     value *= factor;
   }
   return std::move(field.values);

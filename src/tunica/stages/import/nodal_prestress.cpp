@@ -16,7 +16,7 @@ namespace tunica::stages {
 namespace {
 
 constexpr const char* stress = "Stress";
-constexpr const char* remedy = "give the prestress of this mesh, or remove Prestress_file_path and find one";
+constexpr const char* prestress_remedy = "give the prestress of this mesh, or remove Prestress_file_path and find one";
 
 /// Components of `stress` in each element, [element][6], in units of the file: those of the cells where it is an array
 /// of cells, else the means of the nodes.
@@ -32,7 +32,7 @@ std::vector<double> of_elements(const std::filesystem::path& file, const mesh_io
       throw InputError(file.string(),
                        fmt::format("has {} cells, the wall {} elements", field.values.size() / wall::voigt_size,
                                    wall.tetrahedra.size()),
-                       remedy);
+                       prestress_remedy);
     return field.values;
   }
   std::vector<double> values(wall::voigt_size * wall.tetrahedra.size(), 0.0);
@@ -51,7 +51,7 @@ void write_element_prestress(const std::filesystem::path& nodal, double pascals,
   meshes.interface.reset();
   const auto wall = artifacts::load_meshes(meshes, {}).data;
   const auto file = mesh_io::read_vtk_volume_with(nodal, stress);
-  check_points(nodal, file.points, wall.points, meshes.metres(), remedy);
+  check_points(nodal, file.points, wall.points, meshes.metres(), prestress_remedy);
   auto values = of_elements(nodal, file, wall);
   for (double& value : values) value *= pascals;
   artifacts::write_prestress(target, wall, wall::PrestressKind::stress, values);

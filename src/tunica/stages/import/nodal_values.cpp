@@ -19,19 +19,20 @@ namespace tunica::stages {
 
 namespace {
 
-constexpr const char* remedy = "write the file for this mesh anew";
+constexpr const char* mesh_remedy = "write the file for this mesh anew";
 
 /// Columns of the file of a table.
-const char* column_names(peer_cases::NodalValues::Quantity quantity) {
-  using Quantity = peer_cases::NodalValues::Quantity;
+using NodalQuantity = peer_cases::NodalValues::Quantity;
+
+const char* column_names(NodalQuantity quantity) {
   switch (quantity) {
-    case Quantity::velocity:
+    case NodalQuantity::velocity:
       return "vx,vy,vz";
-    case Quantity::displacement:
+    case NodalQuantity::displacement:
       return "ux,uy,uz";
-    case Quantity::traction:
+    case NodalQuantity::traction:
       return "tx,ty,tz";
-    case Quantity::factor:
+    case NodalQuantity::factor:
       break;
   }
   return "factor";
@@ -39,7 +40,7 @@ const char* column_names(peer_cases::NodalValues::Quantity quantity) {
 
 /// Which components the numbers of a text are.
 std::vector<int> due_components(const peer_cases::NodalValues& wanted) {
-  if (wanted.quantity == peer_cases::NodalValues::Quantity::factor) return {0};
+  if (wanted.quantity == NodalQuantity::factor) return {0};
   return wanted.axes.empty() ? std::vector<int>{0, 1, 2} : wanted.axes;
 }
 
@@ -47,7 +48,7 @@ std::vector<int> due_components(const peer_cases::NodalValues& wanted) {
 class Words {
  public:
   explicit Words(const std::filesystem::path& file) : file_(file.string()) {
-    for (const auto& line : files::read_lines(file, remedy)) {
+    for (const auto& line : files::read_lines(file, mesh_remedy)) {
       std::istringstream words{std::string(line.text)};
       for (std::string word; words >> word;) words_.emplace_back(word, line.number);
     }
@@ -55,7 +56,7 @@ class Words {
 
   bool done() const { return next_ == words_.size(); }
   double number(const char* what) {
-    if (done()) throw InputError(file_, fmt::format("ends where {} is due", what), remedy);
+    if (done()) throw InputError(file_, fmt::format("ends where {} is due", what), mesh_remedy);
     const auto& [word, line] = words_[next_++];
     line_ = line;
     return files::parse_number(word, where(), what);
@@ -72,7 +73,7 @@ class Words {
     if (!(value >= 0 && value < 1e9) || value != std::floor(value)) refuse(fmt::format("has the node {:.9g}", value));
     return static_cast<std::int64_t>(value);
   }
-  [[noreturn]] void refuse(const std::string& what) const { throw InputError(where(), what, remedy); }
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(where(), what, mesh_remedy); }
 
  private:
   std::string where() const { return fmt::format("{}:{}", file_, line_); }
@@ -110,10 +111,10 @@ std::size_t place_of_next(const NodalTable& table, int first_node, Words& words)
 void check_times(const std::vector<double>& times, const std::string& file) {
   if (times.size() < 2 || times.front() != 0)
     throw InputError(file, times.empty() ? "has no times" : "does not begin at the time 0, or has one time alone",
-                     remedy);
+                     mesh_remedy);
   for (std::size_t k = 1; k < times.size(); ++k)
     if (!(times[k] > times[k - 1]))
-      throw InputError(file, fmt::format("has the time {:.9g} behind {:.9g}", times[k], times[k - 1]), remedy);
+      throw InputError(file, fmt::format("has the time {:.9g} behind {:.9g}", times[k], times[k - 1]), mesh_remedy);
 }
 
 /// Pairs of places in the table between whose nodes a line of the file lies: each with itself, and the ends of edges.
@@ -170,7 +171,7 @@ std::vector<std::size_t> match(const NodalTable& table, const mesh::MeshData& me
     });
     if (nearest == points.end() || !(norm(metres * *nearest - x) <= 1e-5 * size))
       throw InputError(wanted.file.string(),
-                       fmt::format("has no point at node {} of the face {}", node + 1, wanted.face), remedy);
+                       fmt::format("has no point at node {} of the face {}", node + 1, wanted.face), mesh_remedy);
     point_of.push_back(static_cast<std::size_t>(nearest - points.begin()));
   }
   return point_of;
@@ -212,7 +213,7 @@ void read_array(const peer_cases::NodalValues& wanted, const mesh::MeshData& mes
   if (field == surface.point_fields.end() || field->components != components)
     throw InputError(wanted.file.string(),
                      fmt::format("has no point array {} of {} component{}", name, components, traction ? "s" : ""),
-                     remedy);
+                     mesh_remedy);
   auto& values = table.values.emplace_back();
   for (const auto point : match(table, mesh, surface.points, metres, wanted)) {
     auto& value = values.emplace_back(Vec3<double>{});
@@ -264,7 +265,7 @@ void read_course(const peer_cases::NodalValues& wanted, double unit, NodalTable&
   for (const double t : table.times)
     table.values.push_back({Vec3<double>{{courses[0].value(t), courses[1].value(t), courses[2].value(t)}}});
   if (table.times.size() < 2 || !(table.times[1] > table.times[0]))
-    throw InputError(wanted.file.string(), "spans no time", remedy);
+    throw InputError(wanted.file.string(), "spans no time", mesh_remedy);
 }
 
 /// Outward normals, means by the areas around them, and the triangles with areas [units of the peer^2].
@@ -360,7 +361,7 @@ void make_shape(const peer_cases::NodalValues& wanted, const mesh::MeshData& mes
   for (std::size_t n = 0; n < sizes.size(); ++n) {
     const double size = unit * sizes[n] / integral;
     Vec3<double> value = size * g.normals[n];
-    if (wanted.quantity == peer_cases::NodalValues::Quantity::factor) value = {{size, 0, 0}};
+    if (wanted.quantity == NodalQuantity::factor) value = {{size, 0, 0}};
     if (!wanted.axes.empty()) {
       value = {};
       for (const int axis : wanted.axes) value[axis] = size;
@@ -370,15 +371,14 @@ void make_shape(const peer_cases::NodalValues& wanted, const mesh::MeshData& mes
 }
 
 double unit_of(const peer_cases::NodalValues& wanted, const peer_cases::UnitSystem& units) {
-  using Quantity = peer_cases::NodalValues::Quantity;
   switch (wanted.quantity) {
-    case Quantity::velocity:
+    case NodalQuantity::velocity:
       return config::unit_factor(units.velocity, config::dimension::velocity);
-    case Quantity::displacement:
+    case NodalQuantity::displacement:
       return config::unit_factor(units.length, config::dimension::length);
-    case Quantity::traction:
+    case NodalQuantity::traction:
       return config::unit_factor(units.pressure, config::dimension::pressure);
-    case Quantity::factor:
+    case NodalQuantity::factor:
       break;
   }
   return 1.0;
@@ -416,7 +416,7 @@ NodalTable read_nodal_values(const peer_cases::NodalValues& wanted, const mesh::
 void write_nodal_table(const NodalTable& table, const peer_cases::NodalValues& wanted, const mesh::MeshData& mesh,
                        bool ten_node, const std::filesystem::path& target) {
   const auto places = places_of(table, wanted, mesh, ten_node);
-  const bool factor = wanted.quantity == peer_cases::NodalValues::Quantity::factor;
+  const bool factor = wanted.quantity == NodalQuantity::factor;
   std::string text = fmt::format("{}x,y,z,{}\n", table.times.empty() ? "" : "t,", column_names(wanted.quantity));
   for (std::size_t k = 0; k < table.values.size(); ++k)
     for (const auto& [a, b] : places) {

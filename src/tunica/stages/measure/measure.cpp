@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/error.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/atomic_file.hpp"
@@ -27,7 +28,6 @@ using config::Schema;
 using nlohmann::ordered_json;
 
 constexpr double slab_of_openings = 4;  ///< voxels: there is lumen on one side alone
-constexpr double ml = 1e-6, mm = 1e-3, cm_s = 1e-2;
 
 Schema<ProfileSettings> profile_schema() {
   return Schema<ProfileSettings>("profile", "Velocities of an opening in space and time, as the condition of a run.")
@@ -113,15 +113,15 @@ Prepared prepare(const MeasureCase& c, const VesselOfCase& vessel, const files::
   if (c.background) {
     const auto offset = flow::fit_offset(series, at_rest, *c.background);
     flow::subtract(series, offset);
-    say(fmt::format("offset of static tissue: up to {:.3g} cm/s, taken away", offset.largest / cm_s));
-    p.done["largest_offset_cm_s"] = offset.largest / cm_s;
+    say(fmt::format("offset of static tissue: up to {:.3g} cm/s, taken away", offset.largest / unit::cm_s));
+    p.done["largest_offset_cm_s"] = offset.largest / unit::cm_s;
   }
   if (c.noise)
     p.noise = {*c.noise, 0};
   else
     p.noise = flow::measure_noise(series, at_rest);
-  say(fmt::format("noise: {:.3g} cm/s{}", p.noise.deviation / cm_s, c.noise ? "" : " in static tissue"));
-  p.done["noise_cm_s"] = p.noise.deviation / cm_s;
+  say(fmt::format("noise: {:.3g} cm/s{}", p.noise.deviation / unit::cm_s, c.noise ? "" : " in static tissue"));
+  p.done["noise_cm_s"] = p.noise.deviation / unit::cm_s;
   p.lumen = flow::lumen_voxels(series, vessel.mesh, p.noise.magnitude);
   return p;
 }
@@ -132,7 +132,8 @@ std::string table_of(const std::vector<flow::FlowCurve>& curves, const std::vect
   text += "\n";
   for (std::size_t k = 0; k < times.size(); ++k) {
     text += fmt::format("{:.9g}", times[k]);
-    for (const auto& c : curves) text += fmt::format(",{:.7g},{:.4g}", c.flow[k] / ml, c.deviation_at(k) / ml);
+    for (const auto& c : curves)
+      text += fmt::format(",{:.7g},{:.4g}", c.flow[k] / unit::ml, c.deviation_at(k) / unit::ml);
     text += "\n";
   }
   return text;
@@ -145,15 +146,15 @@ ordered_json vector_of(const Vec3<double>& v, double unit) {
 ordered_json report_of(const flow::FlowCurve& c) {
   const auto [least, most] = std::minmax_element(c.flow.begin(), c.flow.end());
   return {{"name", c.name},
-          {"centre_mm", vector_of(c.centre, mm)},
+          {"centre_mm", vector_of(c.centre, unit::mm)},
           {"normal", vector_of(c.normal, 1)},
           {"area_mm2", c.area * 1e6},
           {"voxels", c.voxels},
-          {"mean_ml_s", c.mean() / ml},
-          {"deviation_of_mean_ml_s", c.mean_deviation() / ml},
-          {"largest_ml_s", *most / ml},
-          {"smallest_ml_s", *least / ml},
-          {"deviation_by_noise_ml_s", c.deviation / ml},
+          {"mean_ml_s", c.mean() / unit::ml},
+          {"deviation_of_mean_ml_s", c.mean_deviation() / unit::ml},
+          {"largest_ml_s", *most / unit::ml},
+          {"smallest_ml_s", *least / unit::ml},
+          {"deviation_by_noise_ml_s", c.deviation / unit::ml},
           {"unresolved_share", c.unresolved}};
 }
 
@@ -163,7 +164,7 @@ void plot_curves(const std::vector<flow::FlowCurve>& curves, const std::vector<d
     auto& line = series.emplace_back();
     line.name = c.name;
     line.x = times;
-    for (const double q : c.flow) line.y.push_back(q / ml);
+    for (const double q : c.flow) line.y.push_back(q / unit::ml);
   }
   drawing::write_plot(file.string(), series,
                       {.title = "Measured flow: of openings into the vessel at the inlet, out of it elsewhere",
@@ -196,7 +197,8 @@ flow::NodalCourse fitted_profile(const MeasureCase& c, const VesselOfCase& vesse
   const auto length = c.profile->smoothing ? c.profile->smoothing : c.smoothing;
   const flow::ProfileFit fit(p.series, p.lumen, section, p.noise,
                              {.length = length.value_or(radius), .slab = c.profile->slab, .at_end = true});
-  say(fmt::format("profile of {}: {} voxels, smoothed over {:.3g} mm", opening.name, fit.voxels(), fit.length() / mm));
+  say(fmt::format("profile of {}: {} voxels, smoothed over {:.3g} mm", opening.name, fit.voxels(),
+                  fit.length() / unit::mm));
   std::vector<double> outflow;
   const double sign = opening.name == vessel.inlet ? -1 : 1;
   for (std::size_t k = 0; k < p.series.frames(); ++k)
@@ -222,7 +224,7 @@ void lay_plane_onto_opening(const MeasureCase& c, const VesselOfCase& vessel, co
   const auto weights = flow::frame_weights(plane.times, plane.period);
   for (std::size_t k = 0; k < plane.times.size(); ++k) mean += weights[k] * plane.flow(k);
   say(fmt::format("plane: {} frames of {} points, mean flow {:.4g} ml/s", plane.times.size(), plane.points.size(),
-                  mean / ml));
+                  mean / unit::ml));
   write_profile(c, opening, flow::plane_at_nodes(plane, opening, c.plane->turn), say);
 }
 
@@ -298,8 +300,8 @@ void measure(const MeasureCase& c, bool overwrite, const files::Say& say) {
   const bool whole = c.openings && left_out.empty();
   if (c.balance && whole) {
     const double lacked = flow::balance_means(curves, signs);
-    say(fmt::format("balance of the openings: {:.3g} ml/s were left on average, shared among them", lacked / ml));
-    report["mass_left_before_balance_ml_s"] = lacked / ml;
+    say(fmt::format("balance of the openings: {:.3g} ml/s were left on average, shared among them", lacked / unit::ml));
+    report["mass_left_before_balance_ml_s"] = lacked / unit::ml;
   } else if (c.balance && c.openings) {
     say("warning: the openings are not balanced, since not all of them could be measured");
   }

@@ -15,8 +15,6 @@ namespace tunica::stages {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr drawing::Colour true_lumen{246, 200, 196}, false_lumen{196, 214, 240};
 /// In the order of `WallRegion`.
 constexpr std::array<drawing::Colour, 4> region_colours = {
@@ -196,7 +194,7 @@ std::string pictures(const MeshPageInput& in) {
   return text;
 }
 
-std::string histogram(const json& counts, double bin, const std::string& title, const std::string& label) {
+std::string histogram(const nlohmann::json& counts, double bin, const std::string& title, const std::string& label) {
   drawing::Series bars{"", {}, {}};
   double at = 0;
   for (const auto& n : counts) {
@@ -210,14 +208,16 @@ std::string histogram(const json& counts, double bin, const std::string& title, 
       {bars}, {.title = title, .x_label = label, .y_label = "elements", .log_y = true, .width = 560}));
 }
 
-std::string number(const json& value, int digits) { return fmt::format("{:.{}f}", value.get<double>(), digits); }
+std::string number(const nlohmann::json& value, int digits) {
+  return fmt::format("{:.{}f}", value.get<double>(), digits);
+}
 
-std::string tables(const json& r) {
+std::string tables(const nlohmann::json& r) {
   std::string text = "<h2>Regions in numbers</h2>\n<table>\n" +
                      drawing::page::row({"region", "elements", "volume [ml]", "smallest dihedral angle",
                                          "exceeded by 99.99 %", "mean edge [mm]"},
                                         "th");
-  const auto line = [&](const std::string& name, const json& s, const std::string& volume) {
+  const auto line = [&](const std::string& name, const nlohmann::json& s, const std::string& volume) {
     text +=
         drawing::page::row({drawing::page::escaped(name), std::to_string(s["elements"].get<geometry::Index>()), volume,
                             number(s["smallest_dihedral_deg"], 1) + "°",
@@ -255,7 +255,7 @@ std::string tables(const json& r) {
   return text + "</table>\n";
 }
 
-std::string summary(const json& r) {
+std::string summary(const nlohmann::json& r) {
   const auto& f = r["fidelity"];
   const auto& lumen = r["lumen_boundary"];
   return fmt::format(

@@ -61,19 +61,19 @@ void add_tears(const Scene& scene, drawing::Canvas& canvas) {
   }
 }
 
-enum class Side { both, true_only };
+enum class Shown { both, true_only };
 
-drawing::Canvas drawn(const Scene& scene, bool from_behind, Side side) {
+drawing::Canvas drawn(const Scene& scene, bool from_behind, Shown side) {
   auto camera = drawing::look_at_all(scene.lumen.points, static_cast<double>(width) / height);
   if (from_behind) camera.towards = -1.0 * camera.towards;
   drawing::Canvas canvas(width, height, camera);
   for (const auto& t : scene.lumen.triangles) {
     const bool in_false = is_false(scene, t);
-    if (side == Side::true_only && in_false) continue;
+    if (side == Shown::true_only && in_false) continue;
     canvas.add(corners(scene.lumen, t), scene.of_false_lumen.empty() ? unlabelled : in_false ? of_false : of_true);
   }
   add_ends(scene, canvas);
-  if (side == Side::true_only) add_tears(scene, canvas);
+  if (side == Shown::true_only) add_tears(scene, canvas);
   return canvas;
 }
 
@@ -112,9 +112,9 @@ std::string page_of(const Scene& scene, const std::string& title, const std::vec
   std::string html =
       page::begin(title.empty() ? "Preview of a mesh" : title) +
       page::picture(page::data_url(front), labelled ? "Lumen: true red, false blue, ends dark" : "Lumen, ends dark") +
-      page::picture(page::data_url(drawn(scene, true, Side::both).png()), "From behind");
+      page::picture(page::data_url(drawn(scene, true, Shown::both).png()), "From behind");
   if (!scene.tears.empty())
-    html += page::picture(page::data_url(drawn(scene, false, Side::true_only).png()),
+    html += page::picture(page::data_url(drawn(scene, false, Shown::true_only).png()),
                           "What faces the true lumen alone; tears yellow");
   if (scene.outer)
     html += page::picture(page::data_url(outer_drawn(scene).png()), "Outside of the wall, as it is given");
@@ -155,7 +155,7 @@ Preview preview(const case_file::MeshCase& mesh_case, const files::Say& say) {
   options.spots = mesh_case.output / "problems.vtp";
   const auto scene = scene_of(meshing::surfaces_of(*mesh_case.geometry, options, false));
   phases.begin("pictures");
-  auto picture = drawn(scene, false, Side::both).png();
+  auto picture = drawn(scene, false, Shown::both).png();
   auto page = page_of(scene, mesh_case.title, picture);
   phases.end();
   return {text_of(scene), std::move(page), std::move(picture)};

@@ -25,7 +25,7 @@ namespace tunica::stages::post {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* report_file = "post.json";
+constexpr const char* post_report_file = "post.json";
 
 /// Without the section `post` those of its schema; a case that computes cycles says how long one is.
 analysis::PostSettings settings_of(const case_file::Case& c) {
@@ -152,10 +152,10 @@ void Post::read() {
 
 void Post::prepare_folder() {
   parallel::on_root(comm_, [&] {
-    if (!request_.overwrite && fs::exists(folder_ / report_file))
+    if (!request_.overwrite && fs::exists(folder_ / post_report_file))
       throw InputError(folder_.string(), "holds figures already", "give --overwrite, or another folder by --output");
     lock_ = files::FolderLock(folder_);
-    files::try_outputs(folder_, {report_file, "post.log"});
+    files::try_outputs(folder_, {post_report_file, "post.log"});
   });
   log_.emplace(comm_, parallel::Log::Targets{.file = folder_ / "post.log", .screen = screen_});
   if (!lock_.taken_over().empty()) log_->warning(lock_.taken_over());
@@ -242,12 +242,12 @@ void Post::write() {
       for (const auto& file : write(findings, folder_)) files.push_back(file);
     if (case_.measured) report["measured"] = compare_measured(findings, *case_.measured, folder_, files);
     report["seconds"] = MPI_Wtime() - started_;
-    files::write_atomically(folder_ / report_file, config::json_text(report));
+    files::write_atomically(folder_ / post_report_file, config::json_text(report));
     log_->info(report_text(report));
     if (case_.measured) log_->info(measured_text(report["measured"]));
     if (too_dissipative) log_->warning(*too_dissipative);
   });
-  log_->info(fmt::format("{} files in {}", report_file, folder_.string()));
+  log_->info(fmt::format("{} files in {}", post_report_file, folder_.string()));
 }
 
 void Post::steps() {

@@ -142,7 +142,7 @@ std::vector<std::string> parts_at(const Findings& f, const analysis::Station& st
   return parts;
 }
 
-ordered_json stations(const Findings& f) {
+ordered_json station_entries(const Findings& f) {
   ordered_json list = ordered_json::array();
   for (std::size_t s = 0; s < f.vessel.stations.size(); ++s) {
     const auto& station = f.vessel.stations[s];
@@ -278,7 +278,7 @@ ordered_json report_json(const Findings& f) {
   if (!f.openings.empty()) report["openings"] = openings(f);
   if (!f.vessel.inside.empty()) report["wall_shear"] = wall_shear(f);
   if (!f.frames.stresses().empty()) report["stress"] = stresses(f);
-  if (f.has_stations()) report["stations"] = stations(f);
+  if (f.has_stations()) report["stations"] = station_entries(f);
   if (f.lumens && !f.lumens->tears.empty()) report["tears"] = tears(f);
   if (f.lumens) report["false_lumen"] = false_lumen(f);
   if (f.has_flap()) report["flap"] = flap(f);

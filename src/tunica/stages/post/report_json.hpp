@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "tunica/base/units.hpp"
 #include "tunica/stages/post/findings.hpp"
 
 namespace tunica::stages::post {
@@ -12,10 +13,5 @@ nlohmann::ordered_json report_json(const Findings& f);
 
 /// A summary of that report.
 std::string report_text(const nlohmann::ordered_json& report);
-
-/// Units of the report and of the tables, in SI: they do not depend on those of the case.
-namespace unit {
-inline constexpr double mm = 1e-3, mm2 = 1e-6, ml = 1e-6, mmHg = 133.322387415, kPa = 1e3;
-}
 
 }  // namespace tunica::stages::post

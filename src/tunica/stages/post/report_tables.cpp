@@ -84,7 +84,7 @@ Table pressure_difference(const Findings& f) {
 }
 
 /// One line for each station: means and extremes over the window. Empty sections give nan.
-Table stations(const Findings& f) {
+Table station_table(const Findings& f) {
   Table table;
   const auto n = f.vessel.stations.size();
   const auto of_stations = [&](const auto& get) {
@@ -141,7 +141,7 @@ std::vector<std::string> write_tables(const Findings& f, const std::filesystem::
     files.push_back(name);
   };
   if (f.has_stations()) {
-    write("stations.csv", stations(f));
+    write("stations.csv", station_table(f));
     for (std::size_t lumen = 0; lumen < (f.vessel.side.empty() ? 1U : 2U); ++lumen) {
       const std::string name = analysis::lumen_names[lumen];
       write(name + "_pressure.csv", along_and_in_time(f, lumen, "pressure", "[mmHg]", unit::mmHg));

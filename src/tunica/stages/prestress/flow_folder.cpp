@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int steps_between_checkpoints = 20;
-constexpr std::size_t kept_checkpoints = 2;
+constexpr std::size_t kept_flow_checkpoints = 2;
 
 fs::path end_of(const fs::path& folder) { return folder / "flow.checkpoint"; }
 fs::path way_in(const fs::path& folder) { return folder / "flow_checkpoints"; }
@@ -52,7 +52,7 @@ void save(const distributed::DistributedMesh& mesh, const coupling::State& state
   artifacts::write_checkpoint(artifacts::checkpoint_file(way, state.step), mesh, {state, {}, 0, folder.mesh_hash});
   parallel::on_root(mesh.comm, [&] {
     const auto files = artifacts::list_checkpoints(way);
-    for (std::size_t k = 0; k + kept_checkpoints < files.size(); ++k) fs::remove(files[k]);
+    for (std::size_t k = 0; k + kept_flow_checkpoints < files.size(); ++k) fs::remove(files[k]);
   });
 }
 

@@ -152,9 +152,10 @@ void PrestressRun::prepare_folder() {
     if (request_.keep_flow && !has_flow(folder_))
       throw InputError(folder_.string(), "holds no flow.checkpoint that could be kept",
                        "find the flow: " + command("--overwrite"));
-    files::try_outputs(folder_, {"prestress.log", report_file, "wall.vtu", "start.checkpoint", "flow.checkpoint",
-                                 "boundary.yaml", "fixed_point.csv"});
-    for (const char* file : {"prestress.log", report_file, "wall.vtu", "start.checkpoint"}) fs::remove(folder_ / file);
+    files::try_outputs(folder_, {"prestress.log", prestress_report_file, "wall.vtu", "start.checkpoint",
+                                 "flow.checkpoint", "boundary.yaml", "fixed_point.csv"});
+    for (const char* file : {"prestress.log", prestress_report_file, "wall.vtu", "start.checkpoint"})
+      fs::remove(folder_ / file);
     if (!request_.keep_flow) remove_flow(folder_);
   });
 }
@@ -307,7 +308,8 @@ void PrestressRun::record_end(const char* status, const std::string& message) {
                              {"seconds", MPI_Wtime() - started_}};
   try {
     // A fixed point that did not converge has its report already.
-    if (!fs::exists(folder_ / report_file)) files::write_atomically(folder_ / report_file, json.dump(2) + "\n");
+    if (!fs::exists(folder_ / prestress_report_file))
+      files::write_atomically(folder_ / prestress_report_file, json.dump(2) + "\n");
   } catch (const std::exception& error) {
     log_->warning(fmt::format("prestress.json does not tell the end: {}", error.what()));
   }

@@ -204,7 +204,7 @@ void PrestressRun::write_report(const coupling::PrestressResult& result) {
                            {"change_of_velocity_in_the_last_step", steady_.velocity_change},
                            {"change_of_pressure_in_the_last_step", steady_.pressure_change}};
   json["seconds"] = MPI_Wtime() - started_;
-  parallel::on_root(comm_, [&] { files::write_atomically(folder_ / report_file, config::json_text(json)); });
+  parallel::on_root(comm_, [&] { files::write_atomically(folder_ / prestress_report_file, config::json_text(json)); });
 }
 
 }  // namespace tunica::stages

@@ -21,7 +21,7 @@
 
 namespace tunica::stages {
 
-constexpr const char* report_file = "prestress.json";
+constexpr const char* prestress_report_file = "prestress.json";
 
 /// "stress", "stretch" or "inverse".
 const char* name_of(coupling::PrestressSettings::Method method);

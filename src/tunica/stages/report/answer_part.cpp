@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "tunica/base/units.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/stages/report/parts.hpp"
 
@@ -14,12 +15,6 @@ namespace tunica::stages::report {
 namespace {
 
 namespace page = drawing::page;
-constexpr double mmHg = 133.322387415;
-
-json at(const json& object, const std::string& path) {
-  const json::json_pointer pointer("/" + path);
-  return object.is_object() && object.contains(pointer) ? object.at(pointer) : json();
-}
 
 /// What a figure is held against.
 struct Beside {
@@ -84,7 +79,7 @@ void add_pressures(const Results& r, Answers& answers) {
       const json target = asked_for ? at(at(r.tuning, "targets"), fmt::format("{}_Pa", when)) : json();
       Beside beside{0, 0, ""};
       if (target.is_number()) {
-        const double asked = target.get<double>() / mmHg;
+        const double asked = target.get<double>() / unit::mmHg;
         beside = {asked * (1 - tolerance), asked * (1 + tolerance),
                   fmt::format("target {:.1f}, {:.2g} % of it allowed", asked, 100 * tolerance)};
       }
@@ -269,7 +264,7 @@ void add_targets(const Results& r, std::vector<viewer::Plot>& plots) {
   const std::vector<double> ends = {plots[0].curves[0].x.front(), plots[0].curves[0].x.back()};
   for (const char* when : {"systolic", "diastolic"})
     if (const json target = at(at(r.tuning, "targets"), fmt::format("{}_Pa", when)); target.is_number()) {
-      const double asked = target.get<double>() / mmHg;
+      const double asked = target.get<double>() / unit::mmHg;
       plots[0].curves.push_back({fmt::format("target at the inlet, {}", when), ends, {asked, asked}, 0, "target"});
     }
 }

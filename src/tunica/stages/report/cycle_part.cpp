@@ -14,11 +14,6 @@ namespace tunica::stages::report {
 
 namespace {
 
-json at(const json& object, const std::string& path) {
-  const json::json_pointer pointer("/" + path);
-  return object.is_object() && object.contains(pointer) ? object.at(pointer) : json();
-}
-
 using Columns = std::vector<std::pair<std::string, std::string>>;  ///< heading, path
 
 /// `path`: of the list in post.json; entries without `needed` are left out.

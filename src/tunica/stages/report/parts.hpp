@@ -27,6 +27,8 @@ struct Results {
 /// Throws InputError for a file that does not read.
 Results read_results(const ReportCase& report);
 
+/// What lies at a path such as "cycle/systolic_mmHg" below an object; null where there is none.
+json at(const json& object, const std::string& path);
 /// A number with so many significant digits; "–" for null.
 std::string figure(const json& value, int digits = 4);
 /// " ± 0.2" for a figure of post.json whose error band is known, lists by name; else empty.

@@ -21,8 +21,6 @@ Vec3<double> vector_of(const json& list) {
   return {{list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}};
 }
 
-Vec3<double> unit(const Vec3<double>& v) { return (1.0 / norm(v)) * v; }
-
 /// The few extreme values at edges would make one colour of all the others.
 constexpr double shown = 99;
 
@@ -150,7 +148,7 @@ void draw_cuts(const Scene& scene, double metres_per_unit, Album& album) {
       options.percentile = percentile;
       options.clip = plane;
       options.view = plane.normal;
-      options.up = std::abs(unit(plane.normal)[2]) > 0.8 ? Vec3<double>{{0, 1, 0}} : Vec3<double>{{0, 0, 1}};
+      options.up = std::abs(normalised(plane.normal)[2]) > 0.8 ? Vec3<double>{{0, 1, 0}} : Vec3<double>{{0, 0, 1}};
       options.focus = drawing::Focus{plane.origin, 0.03 / metres_per_unit};
       album.add(options, fmt::format("{} across the vessel at {}, {}", title, readable(name), when_of(scene)));
     }

@@ -177,6 +177,11 @@ Results read_results(const ReportCase& report) {
   return r;
 }
 
+json at(const json& object, const std::string& path) {
+  const json::json_pointer pointer("/" + path);
+  return object.is_object() && object.contains(pointer) ? object.at(pointer) : json();
+}
+
 std::string figure(const json& value, int digits) {
   if (value.is_string()) return drawing::page::escaped(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";

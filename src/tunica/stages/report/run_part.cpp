@@ -16,7 +16,7 @@ namespace tunica::stages::report {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* remedy = "do the stage `run` anew";
+constexpr const char* run_remedy = "do the stage `run` anew";
 
 std::size_t column_with(const files::CsvColumns& table, const std::string& text) {
   const auto at = std::find_if(table.headers.begin(), table.headers.end(),
@@ -62,7 +62,7 @@ std::string gaps(const files::CsvColumns& table) {
 }
 
 std::string balance(const fs::path& folder) {
-  const files::CsvColumns table = files::read_csv(folder / "balance.csv", remedy, files::Gaps::allowed);
+  const files::CsvColumns table = files::read_csv(folder / "balance.csv", run_remedy, files::Gaps::allowed);
   std::vector<std::vector<std::string>> rows;
   const auto largest = [&](const std::string& column, const std::string& name) {
     const auto k = column_with(table, column);
@@ -80,7 +80,7 @@ std::string balance(const fs::path& folder) {
 }
 
 std::string times(const fs::path& folder) {
-  const files::CsvColumns table = files::read_csv(folder / "steps.csv", remedy, files::Gaps::allowed);
+  const files::CsvColumns table = files::read_csv(folder / "steps.csv", run_remedy, files::Gaps::allowed);
   std::vector<std::vector<std::string>> rows;
   for (const char* what : {"newton iterations", "linear iterations", "mesh iterations", "assembly", "set-up",
                            "linear [", "mesh [", "total"}) {
@@ -122,7 +122,7 @@ std::string run_part(const Results& r) {
     text += missing("Numerical over viscous dissipation", "the run has not ended, or its version did not tell it");
   text += balance(folder);
   if (has_faces && r.post.is_null()) {
-    const files::CsvColumns faces = files::read_csv(folder / "faces.csv", remedy, files::Gaps::allowed);
+    const files::CsvColumns faces = files::read_csv(folder / "faces.csv", run_remedy, files::Gaps::allowed);
     text += gaps(faces) + curves(faces, "pressure", "Mean pressure at the openings") +
             curves(faces, "flow", "Flow at the openings");
   }

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "tunica/base/digits.hpp"
+#include "tunica/base/units.hpp"
 #include "tunica/config/description.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
@@ -18,13 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double mmHg = 133.322387415;  // Pa
 /// More than these are no tears that anybody has named, and stand in one line.
 constexpr auto most_tears = 12;
-
-json at(const json& object, const char* key) {
-  return object.is_object() && object.contains(key) ? object.at(key) : json();
-}
 
 std::string stage_table(const Results& r) {
   std::vector<std::vector<std::string>> rows;
@@ -175,11 +171,11 @@ std::string outlets_part(const Results& r) {
   for (std::size_t k = 0; k < cycles.size(); ++k) head.push_back(fmt::format("cycle {} in 3D", k + 1));
   for (const char* value : {"systolic", "diastolic", "mean"}) {
     const std::string key = fmt::format("{}_Pa", value);
-    const std::string target = fmt::format("{:.1f}", targets.value(key, std::nan("")) / mmHg);
+    const std::string target = fmt::format("{:.1f}", targets.value(key, std::nan("")) / unit::mmHg);
     const bool mean = value == std::string_view("mean");  // follows from the other two and the inflow
     std::vector<std::string> cells = {value, mean ? fmt::format("none; by rule of thumb {}", target) : target};
     for (const auto& cycle : cycles)
-      cells.push_back(fmt::format("{:.1f}", at(cycle, "measured").value(key, std::nan("")) / mmHg));
+      cells.push_back(fmt::format("{:.1f}", at(cycle, "measured").value(key, std::nan("")) / unit::mmHg));
     rows.push_back(cells);
   }
   text += drawing::page::table(head, rows);

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* report_file = "tuning.json";
+constexpr const char* tuning_report_file = "tuning.json";
 
 ordered_json json_of(const zerod::Pressures& p) {
   return {{"systolic_Pa", p.systolic}, {"diastolic_Pa", p.diastolic}, {"mean_Pa", p.mean}};
@@ -73,7 +73,7 @@ void write_json(const TuningReport& report, const case_file::TuningCase& outlets
   for (const auto& cycle : report.cycles) json["cycles"].push_back(json_of(cycle, outlets));
   if (!report.cycles.empty()) json["outlets_of_the_last_cycle"] = outlets_json(report.cycles.back(), outlets);
   json["seconds"] = report.seconds;
-  files::write_atomically(report.folder / report_file, config::json_text(json));
+  files::write_atomically(report.folder / tuning_report_file, config::json_text(json));
 }
 
 void write_table(const TuningReport& report, const case_file::Case& c, double pressure) {
@@ -168,8 +168,8 @@ void write_report(const TuningReport& report, const case_file::Case& c) {
 }
 
 std::optional<EarlierTuning> find_tuning(const fs::path& folder) {
-  files::refuse_other_than_file(folder / report_file);
-  std::ifstream in(folder / report_file);
+  files::refuse_other_than_file(folder / tuning_report_file);
+  std::ifstream in(folder / tuning_report_file);
   if (!in) return std::nullopt;
   try {
     return EarlierTuning{artifacts::inputs_from_json(nlohmann::ordered_json::parse(in).at("inputs"))};

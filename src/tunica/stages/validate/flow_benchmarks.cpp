@@ -13,7 +13,7 @@ namespace tunica::stages::validate {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr const char* slab_mesh = "meshes: {length_unit: m, lumen: {simvascular: lumen}}\n";
 
 // --- tubes --------------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ namespace tunica::stages::validate {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Jet {
   std::string title;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "tunica/base/units.hpp"
 #include "tunica/mesh/generate.hpp"
 
 namespace tunica::stages::validate {
@@ -15,7 +16,7 @@ namespace {
 
 using Profile = std::vector<std::array<double, 2>>;
 
-constexpr double mm = 1e-3;
+using unit::mm;
 
 Profile subdivided(const Profile& profile, double spacing) {
   Profile fine{profile.front()};

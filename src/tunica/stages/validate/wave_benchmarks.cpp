@@ -13,7 +13,7 @@ namespace tunica::stages::validate {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct ElasticTube {
   double radius = 10e-3, thickness = 1e-3, length = 200e-3;  // m

@@ -31,8 +31,6 @@ struct Fibre {
   }
 };
 
-double size(const Stress& S) { return std::sqrt(double_dot(S, S)); }
-
 Direction mean_direction(const VonMises& d) { return d.mean_direction; }
 Direction mean_direction(const BivariateVonMises& d) { return {{std::cos(d.mean_angle), std::sin(d.mean_angle), 0.0}}; }
 
@@ -119,14 +117,14 @@ class Measure {
     const Fibre linear{0.0, tension_only};
     for (const Stress& C : states_) {
       reference_.push_back(stress(fibre_, C, fine));
-      scale_.push_back(std::max(size(reference_.back()), size(stress(linear, C, isotropic))));
+      scale_.push_back(std::max(norm(reference_.back()), norm(stress(linear, C, isotropic))));
     }
   }
 
   double error(const DirectionSet& set) const {
     double largest = 0.0;
     for (std::size_t n = 0; n < states_.size(); ++n)
-      largest = std::max(largest, size(stress(fibre_, states_[n], set) + (-1.0) * reference_[n]) / scale_[n]);
+      largest = std::max(largest, norm(stress(fibre_, states_[n], set) + (-1.0) * reference_[n]) / scale_[n]);
     return largest;
   }
 

@@ -12,14 +12,12 @@ namespace {
 
 using Direction = Vec3<double>;
 
-Direction unit(const Direction& a) { return (1.0 / norm(a)) * a; }
-
 struct Triangle {
   Direction A, B, C;
 
   /// At the corners A, B, C and in the middle; edges are halved on the sphere.
   std::array<Triangle, 4> split() const {
-    const Direction AB = unit(A + B), BC = unit(B + C), CA = unit(C + A);
+    const Direction AB = normalised(A + B), BC = normalised(B + C), CA = normalised(C + A);
     return {{{A, AB, CA}, {AB, B, BC}, {CA, BC, C}, {AB, BC, CA}}};
   }
 };
@@ -44,7 +42,8 @@ double integral(const Density& d, const Triangle& t) {
 /// At a corner in e3 a split into four leaves a triangle of the same angle, in which a bivariate density varies as
 /// before. This one halves the angle too.
 std::array<Triangle, 6> split_at_pole(const Triangle& t) {
-  const Direction AB = unit(t.A + t.B), A = unit(t.A + t.C), M = unit(AB + t.C), B = unit(t.B + t.C);
+  const Direction AB = normalised(t.A + t.B), A = normalised(t.A + t.C), M = normalised(AB + t.C),
+                  B = normalised(t.B + t.C);
   return {{{A, M, t.C}, {M, B, t.C}, {t.A, AB, A}, {AB, M, A}, {AB, t.B, M}, {t.B, B, M}}};
 }
 
@@ -68,7 +67,7 @@ void add_triangles(const Density& d, const Triangle& t, int splits, DirectionSet
     for (const Triangle& part : t.split()) add_triangles(d, part, splits - 1, set);
     return;
   }
-  set.directions.push_back(unit(t.A + t.B + t.C));
+  set.directions.push_back(normalised(t.A + t.B + t.C));
   set.weights.push_back(adaptive_integral(d, t, 12) / (2.0 * std::numbers::pi));
 }
 

@@ -10,7 +10,7 @@ namespace tunica::wall {
 namespace {
 
 using Direction = Vec3<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A weight below exp(-46) of its peak is below rounding. A measure resolves every rule of up to 128 points: its points
 // lie densest at the ends, as those of the rule do.
