@@ -2,7 +2,7 @@
 // ways, have to become a surface that is right or an error, and never a wrong surface.
 //
 //   label_trials [TRIALS [SEED [KIND ...]]]      TRIALS: how many (20), SEED: of the first one (1)
-//   label_trials --write FOLDER TRIALS SEED ...  writes images and case files for `tunica mesh` instead
+//   label_trials --write FOLDER TRIALS SEED ...  writes images and case files for `run_label_meshes` instead
 //   label_trials --keep FILE TRIALS SEED ...     adds each outcome to FILE, and leaves out trials that are in it
 //
 // A surface is right with as many openings as the body has, the genus of its tears, its volume within 2 % (3 % with
@@ -100,7 +100,10 @@ std::string faults(const Body& body, const std::string& kind, const LabelSurface
   return result;
 }
 
-void write_case(const std::filesystem::path& folder, const std::string& name, const Disturbed& d) {
+/// With what a mesh of it has to be, in NAME.json.
+void write_case(const std::filesystem::path& folder, const std::string& kind, unsigned seed, const Body& body,
+                const Disturbed& d) {
+  const auto name = fmt::format("{}_{}", kind, seed);
   std::filesystem::create_directories(folder);
   write_label_image(d.image, folder / (name + ".nrrd"));
   std::ofstream file(folder / (name + ".yaml"));
@@ -120,6 +123,13 @@ void write_case(const std::filesystem::path& folder, const std::string& name, co
   for (const auto& [repair, key] : {std::pair{Repair::slices, "slices"}, std::pair{Repair::bridges, "bridges"}})
     if (d.settings.repairs[repair]) file << "    repair: [" << key << "]\n";
   file << "    aorta_ends: [abdominal_aorta]\nsize: coarse\noutput: mesh_" << name << "\n";
+  const auto& flap = body.shape.flap;
+  const bool error = d.right == Right::error;
+  std::ofstream(folder / (name + ".json")) << fmt::format(
+      R"({{"kind": "{}", "what": "{}", "right": "{}", "lumen_ml": {:.3f}, "flap_mm": {:.3f}, "tears_mm2": [{:.1f}, {:.1f}], "openings": {}}})"
+      "\n",
+      kind, d.what, error ? "error" : "mesh", error ? 0 : 1e6 * lumen_volume(body.model), 1e3 * flap.thickness,
+      1e6 * flap.entry.area, 1e6 * flap.exit.area, body.model.openings().size());
 }
 
 struct Count {
@@ -206,7 +216,7 @@ int main(int number, char** values) {
     }
     std::mt19937 random(seed + static_cast<unsigned>(n));
     const Body body(random);
-    write_case(folder, fmt::format("{}_{}", kind, seed + static_cast<unsigned>(n)), kinds().at(kind)(body, random));
+    write_case(folder, kind, seed + static_cast<unsigned>(n), body, kinds().at(kind)(body, random));
   }
   std::printf("%d right, %d refused that could be meshed, %d wrong\n", count.right, count.refused, count.wrong);
   return count.wrong == 0 ? 0 : 1;

@@ -44,13 +44,6 @@ bool is_rough(const ImageFrame& frame, const Handle& handle) {
   return handle.way <= short_way || area < 4 * voxel * voxel || std::pow(2 * reach + voxel, 2) > film * area;
 }
 
-/// At most two voxels thick.
-bool is_film(const ImageFrame& frame, const std::vector<float>& depth, const std::vector<std::int64_t>& voxels) {
-  const auto deepest =
-      std::max_element(voxels.begin(), voxels.end(), [&](auto a, auto b) { return depth[a] < depth[b]; });
-  return depth[*deepest] < 1.2 * frame.largest_spacing();
-}
-
 class Settling {
  public:
   Settling(const FlapSides* sides, SmoothField& field) : sides_(sides), field_(field), frame_(field.frame) {
@@ -264,7 +257,7 @@ std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bound
       const auto place = in_mm(middle_of(mask.frame, voxels));
       // Most roughness the filter takes away; `settle` does the rest.
       if (vessels ? is_rough(mask.frame, handles[h]) : handles[h].way <= short_way) continue;
-      if (!vessels && areas[h] >= smallest && !is_film(mask.frame, depth, voxels)) {
+      if (!vessels && areas[h] >= smallest) {
         ++kept;
         log(fmt::format("the {}lumen makes a ring, whose narrowest place is at {}, {:.0f} mm^2{}",
                         dissected ? "false " : "", place, 1e6 * areas[h], dissected ? "" : ": a tear"));

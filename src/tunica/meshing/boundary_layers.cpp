@@ -65,11 +65,15 @@ Interface find_interface(const geometry::Tetrahedra& mesh) {
   for (const auto& t : geometry::surface_triangles(mesh)) {
     if (t.label != geometry::lumen_label) continue;
     const auto area = mesh::area_vector(mesh.points, t.nodes);
-    const bool interface = t.neighbour_label == geometry::wall_label;
-    for (const auto n : t.nodes) (interface ? normal : cap)[n] = (interface ? normal : cap)[n] + area;
-    if (!interface) continue;
+    if (t.neighbour_label != geometry::wall_label) {
+      for (const auto n : t.nodes) cap[n] = cap[n] + area;
+      continue;
+    }
     result.triangles.push_back(t.nodes);
-    for (const auto n : t.nodes) result.position[n] = 0;
+    for (const auto n : t.nodes) {
+      normal[n] = normal[n] + area;
+      result.position[n] = 0;
+    }
   }
   for (geometry::Index n = 0; n < std::ssize(mesh.points); ++n) {
     if (result.position[n] < 0) continue;
