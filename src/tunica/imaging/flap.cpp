@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tunica/base/error.hpp"
 #include "tunica/imaging/distance.hpp"
@@ -87,13 +88,16 @@ double TearBounds::smallest_of(std::vector<double> areas) const {
   std::sort(areas.begin(), areas.end());
   const auto small = std::lower_bound(areas.begin(), areas.end(), at_least());
   if (smallest || small - areas.begin() < many_small) return at_least();
-  // Noise opens places of all areas up to some largest one, and tears stand apart from them.
-  double best = 1, bound = 6 * at_least();
-  for (auto next = small; next != areas.end() && *(next - 1) < 6 * at_least(); ++next)
-    if (const double gap = *next / *(next - 1); gap > best) {
-      best = gap;
-      bound = std::max(at_least(), std::sqrt(*next * *(next - 1)));
-    }
+  // What noise opens has areas whose tail falls about exponentially, so that the next larger one is farther off than
+  // four times the mean of the tail once in fifty times: then it is a tear, and so are all that are larger.
+  constexpr std::ptrdiff_t of_tail = 10;
+  constexpr double apart = 4;
+  const double bound = 6 * at_least();
+  for (auto next = small; next != areas.end() && *next < bound; ++next) {
+    const auto first = next - std::min(of_tail, next - areas.begin() - 1);
+    const double mean = std::accumulate(first, next, 0.0) / static_cast<double>(next - first) - *(first - 1);
+    if (*next - *(next - 1) > apart * mean) return std::max(at_least(), std::sqrt(*next * *(next - 1)));
+  }
   return bound;
 }
 

@@ -289,7 +289,7 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
           "smallest_tear", [](S& s) -> std::optional<double>& { return s.tears.smallest; }, dimension::area,
           range(0, 1e-3),
           "Smaller contacts of true and false lumen are closed, and listed. When left out, 10 mm^2; where five are "
-          "smaller, so that the labels are rough, up to 60 mm^2: within the widest gap between the areas")
+          "smaller, so that the labels are rough, up to 60 mm^2: where one stands apart from what noise opens")
       .number(
           "most_open", [](S& s) -> double& { return s.tears.most_open; }, range(0, 1),
           "Share of the surface between the lumens that tears may take; with more, the labels have no flap")
@@ -333,7 +333,7 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   drop_beyond_ends(mask);
   auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, rings, log)), result.parts);
   take_noise(surface, voxel, log);
-  if (!result.tears.empty()) narrow_tears(mask, result.tears, surface, log);
+  if (!result.tears.empty()) result.tear_areas = narrow_tears(mask, result.tears, surface, log);
   result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
   result.of_false_lumen = points_at(Kind::false_lumen, mask, result.lumen);
   log_shape(result, log);

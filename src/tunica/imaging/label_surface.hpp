@@ -36,9 +36,10 @@ struct SurfaceSettings {
 };
 
 struct LabelSurface {
-  geometry::TriangleSurface lumen;  ///< open at the vessel ends, with plane rims and outward normals
-  std::vector<VesselEnd> ends;      ///< in the order of the openings that were given
-  std::vector<Contact> tears;
+  geometry::TriangleSurface lumen;             ///< open at the vessel ends, with plane rims and outward normals
+  std::vector<VesselEnd> ends;                 ///< in the order of the openings that were given
+  std::vector<Contact> tears;                  ///< as the labels have them
+  std::vector<double> tear_areas{};            ///< in the surface [m^2]
   int parts = 1;                               ///< 2: true and false lumen are apart
   std::vector<std::uint8_t> of_false_lumen{};  ///< is each point of the lumen at the false one?
   std::optional<geometry::TriangleSurface>

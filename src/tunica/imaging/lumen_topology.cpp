@@ -44,6 +44,12 @@ bool is_rough(const ImageFrame& frame, const Handle& handle) {
   return handle.way <= short_way || area < 4 * voxel * voxel || std::pow(2 * reach + voxel, 2) > film * area;
 }
 
+/// At most two voxels thick: the edge of a lumen that runs out in a wedge.
+bool is_film(const ImageFrame& frame, const std::vector<float>& depth, const std::vector<std::int64_t>& voxels) {
+  const auto shallower = [&](std::int64_t a, std::int64_t b) { return depth[a] < depth[b]; };
+  return depth[*std::max_element(voxels.begin(), voxels.end(), shallower)] < 1.2 * frame.largest_spacing();
+}
+
 class Settling {
  public:
   Settling(const FlapSides* sides, SmoothField& field) : sides_(sides), field_(field), frame_(field.frame) {
@@ -257,10 +263,11 @@ std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bound
       const auto place = in_mm(middle_of(mask.frame, voxels));
       // Most roughness the filter takes away; `settle` does the rest.
       if (vessels ? is_rough(mask.frame, handles[h]) : handles[h].way <= short_way) continue;
-      if (!vessels && areas[h] >= smallest) {
+      if (!vessels && areas[h] >= smallest && !(dissected && is_film(mask.frame, depth, voxels))) {
         ++kept;
-        log(fmt::format("the {}lumen makes a ring, whose narrowest place is at {}, {:.0f} mm^2{}",
-                        dissected ? "false " : "", place, 1e6 * areas[h], dissected ? "" : ": a tear"));
+        log(fmt::format("the {}lumen makes a ring of {}{:.0f} mm, whose narrowest place is at {}, {:.0f} mm^2{}",
+                        dissected ? "false " : "", handles[h].way < longest_way ? "" : "at least ",
+                        1e3 * handles[h].way, place, 1e6 * areas[h], dissected ? "" : ": a tear"));
         continue;
       }
       if (vessels && !repair) {

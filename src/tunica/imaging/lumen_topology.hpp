@@ -9,7 +9,7 @@ namespace tunica::imaging {
 /// Opens rings that a lumen of the labels makes. Rings of vessels are bridges, which are an InputError with their
 /// places unless `repair`; short ones are roughness of the labels. Rings of a false lumen, and of a lumen that has one
 /// label for both (not `dissected`), are as they should be where their narrowest place is as large as a tear by
-/// `bounds`; returns how many of these there are.
+/// `bounds`, and in a false lumen no film; returns how many of these there are.
 std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bounds, bool repair, const Log& log);
 
 /// Raises the field at voxels where the filter has joined what the labels have apart, so that true and false lumen have

@@ -68,8 +68,8 @@ double share_of(double distance) {
 
 }  // namespace
 
-void narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears, geometry::TriangleSurface& surface,
-                  const Log& log) {
+std::vector<double> narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears,
+                                 geometry::TriangleSurface& surface, const Log& log) {
   std::vector<std::int64_t> all;
   for (const auto& tear : tears) all.insert(all.end(), tear.voxels.begin(), tear.voxels.end());
   const auto sides = flap_sides(mask, all);
@@ -88,12 +88,14 @@ void narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears, geom
     const Vec3<double> normal = (1 / area) * before[t].area, way = p - before[t].centre;
     p = p + (share * (scale - 1)) * (way - dot(way, normal) * normal);
   }
-  const auto after = open_parts(sides, tears, geometry::TriangleTree(surface));
+  std::vector<double> result;
+  for (const auto& part : open_parts(sides, tears, geometry::TriangleTree(surface))) result.push_back(norm(part.area));
   for (std::size_t t = 0; t < tears.size(); ++t)
-    log(fmt::format(
-        "tear at {}: {:.0f} mm^2 as in the labels, {:.0f} mm^2 in the surface, {:.0f} mm^2 before its rim "
-        "was moved",
-        in_mm(tears[t].centre), 1e6 * tears[t].area, 1e6 * norm(after[t].area), 1e6 * norm(before[t].area)));
+    log(
+        fmt::format("tear at {}: {:.0f} mm^2 as in the labels, {:.0f} mm^2 in the surface, {:.0f} mm^2 before its rim "
+                    "was moved",
+                    in_mm(tears[t].centre), 1e6 * tears[t].area, 1e6 * result[t], 1e6 * norm(before[t].area)));
+  return result;
 }
 
 }  // namespace tunica::imaging

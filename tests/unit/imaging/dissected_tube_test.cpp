@@ -64,6 +64,46 @@ TEST(DissectedTube, TheFlapHasTheTearsOfTheLabels) {
   }
 }
 
+TEST(DissectedTube, TearsAreAsLargeAsInTheLabelsWhateverTheFilter) {
+  for (const double smoothing : {0.6, 0.85, 1.3}) {
+    const auto image = image_of(with_closed_ends(dissected(2)), {26, 26, 62}, straight);
+    const auto result = surface_of(image, at_both_ends(smoothing), silent);
+    ASSERT_EQ(result.tear_areas.size(), 2U);
+    for (std::size_t t = 0; t < 2; ++t)
+      EXPECT_NEAR(result.tear_areas[t] / result.tears[t].area, 1, 0.06) << "smoothing " << smoothing;
+  }
+}
+
+TEST(DissectedTube, CoarseVoxelsKeepTheFlapAndItsTears) {
+  // A flap of 2.1 mm in voxels of 1.4 mm.
+  const std::array<Vec3<double>, 3> coarse = {{{{1.4 * mm, 0, 0}}, {{0, 1.4 * mm, 0}}, {{0, 0, 1.4 * mm}}}};
+  const auto image = image_of(with_closed_ends(dissected(2)), {14, 14, 32}, coarse);
+  const auto result = surface_of(image, at_both_ends(0.85), silent);
+  EXPECT_EQ(geometry::genus(result.lumen, 2), 1);
+  ASSERT_EQ(result.tear_areas.size(), 2U);
+  for (std::size_t t = 0; t < 2; ++t) EXPECT_NEAR(result.tear_areas[t] / result.tears[t].area, 1, 0.08);
+}
+
+TEST(TearBounds, TellTearsFromWhatNoiseOpens) {
+  const auto smallest_of = [](std::vector<double> areas, TearBounds bounds = {}) {
+    for (auto& a : areas) a *= 1e-6;
+    return 1e6 * bounds.smallest_of(std::move(areas));
+  };
+  // Few small ones: the labels are clean, and what is larger is meant.
+  EXPECT_EQ(smallest_of({229, 220, 12, 8}), 10);
+  EXPECT_EQ(smallest_of({229, 220, 12, 8, 7, 6, 5, 4, 3}, {.smallest = 15e-6}), 15);
+  // Noise up to 13 mm^2 beside tears of 20 mm^2, and up to 46 mm^2 beside such of 134.
+  const double few = smallest_of({119, 91, 30.6, 20.1, 12.9, 11.5, 9.4, 9.1, 9.1, 8.3, 8.3, 8.2, 7.8, 7.8, 7.7});
+  EXPECT_GT(few, 12.9);
+  EXPECT_LT(few, 20.1);
+  const double rough = smallest_of({168, 134, 46, 27.5, 20.6, 18.7, 18.4, 9, 7, 5, 4, 3});
+  EXPECT_GT(rough, 46);
+  EXPECT_LT(rough, 134);
+  const double other = smallest_of({154, 96, 26, 16, 14, 11, 7.2, 4.9, 3, 2, 1, 1});
+  EXPECT_GT(other, 26);
+  EXPECT_LT(other, 96);
+}
+
 TEST(DissectedTube, AHoleThatTheFilterClosesIsAnError) {
   // Seven voxels between lumens that also meet elsewhere are smoothed away, though they are asked for as a tear.
   const auto full = with_closed_ends(dissected(1));

@@ -114,6 +114,14 @@ TEST(FaultyLabels, AMissingSliceIsNamedOrFilled) {
   EXPECT_EQ(filled.genus, 1) << filled.log << filled.error;
 }
 
+TEST(FaultyLabels, AFlapAlongTheSlicesOfOneLabelIsNoMissingSlice) {
+  const auto image = image_of([](const Point& p) { return dissected_tube(p) != 0 ? 1 : 0; }, image_size, straight);
+  auto asked = settings();
+  asked.labels = {1, std::nullopt};
+  const auto made = make(image, asked);
+  EXPECT_EQ(made.genus, 1) << made.log << made.error;
+}
+
 TEST(FaultyLabels, ALabelThatNothingNamesIsAnError) {
   const auto image =
       image_of([](const Point& p) { return p[2] > 5 * mm && dissected_tube(p) == 2 ? 5 : dissected_tube(p); },

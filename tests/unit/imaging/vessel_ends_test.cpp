@@ -51,6 +51,24 @@ TEST(VesselEnds, OfATrunkWithABranch) {
   }
 }
 
+TEST(VesselEnds, OfAShortStubLieInAPlaneAboutThePlaceGiven) {
+  // A branch that reaches 3 mm out of its trunk, cut along no axis of the image.
+  const Vec3<double> axis{{0.8, 0.6 * 0.96, 0.6 * 0.28}};
+  const Point end = 9 * mm * axis;
+  const Segmented vessel(image_of(
+      [&](const Point& p) {
+        return in_tube(p, {{0, 0, -18 * mm}}, {{0, 0, 1}}, 36 * mm, 5 * mm) || in_tube(p, {}, axis, 9 * mm, 3.5 * mm);
+      },
+      {44, 44, 60}, straight));
+  const auto found = end_near(vessel.field, end + Vec3<double>{{0.8 * mm, -0.5 * mm, 0.4 * mm}});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_LT(norm(found->centre - end), 0.7 * mm);
+  EXPECT_GT(dot(found->normal, axis), std::cos(8 * M_PI / 180));
+  EXPECT_NEAR(found->radius / (3.5 * mm), 1, 0.2);
+  // On the side of the trunk nothing ends.
+  EXPECT_FALSE(end_near(vessel.field, {{-5 * mm, 0, 0}}).has_value());
+}
+
 TEST(VesselEnds, RoundAndEndlessVesselsHaveNone) {
   const Segmented ring(
       image_of([](const Point& p) { return std::hypot(std::hypot(p[0], p[1]) - 8 * mm, p[2]) < 2.5 * mm; },
