@@ -48,7 +48,8 @@ VoxelSet voxels_in(const LumenMask& mask, const FlapSides& box, Kind kind) {
   return set;
 }
 
-void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed, double smallest, const Log& log) {
+void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed, double smallest,
+          const TearBounds& bounds, const Log& log) {
   for (const auto& tear : tears)
     log(fmt::format("tear of {:.0f} mm^2 at {}: there true and false lumen touch", 1e6 * tear.area,
                     in_mm(tear.centre)));
@@ -56,6 +57,9 @@ void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed,
     log(fmt::format("contact of {:.2f} mm^2 at {} closed: smaller than `smallest_tear`, {:.0f} mm^2",
                     1e6 * closed[i].area, in_mm(closed[i].centre), 1e6 * smallest));
   if (closed.size() > most_listed) log(fmt::format("and {} smaller ones", closed.size() - most_listed));
+  std::vector<double> areas;
+  for (const auto& contact : closed) areas.push_back(contact.area);
+  warn_of_closed(areas, "contacts of the lumens", bounds, log);
 }
 
 /// The voxels between the lumens within the circle of a given tear.
@@ -99,6 +103,21 @@ double TearBounds::smallest_of(std::vector<double> areas) const {
     if (*next - *(next - 1) > apart * mean) return std::max(at_least(), std::sqrt(*next * *(next - 1)));
   }
   return bound;
+}
+
+void warn_of_closed(const std::vector<double>& areas, const std::string& what, const TearBounds& bounds,
+                    const Log& log) {
+  std::int64_t count = 0;
+  double largest = 0;
+  for (const double area : areas) {
+    count += area >= bounds.at_least();
+    largest = std::max(largest, area);
+  }
+  if (count > 0)
+    log(fmt::format(
+        "warning: the labels are rough, and {} {} of {:.0f} to {:.0f} mm^2 were taken for noise and closed; "
+        "if there are tears among them, give `smallest_tear`",
+        count, what, 1e6 * bounds.at_least(), 1e6 * largest));
 }
 
 config::Schema<GivenTear> GivenTear::schema() {
@@ -177,7 +196,7 @@ std::vector<Contact> find_tears(const LumenMask& mask, const FlapSettings& flap,
                      fmt::format("no tear joins true and false lumen: the largest contact has {:.2f} mm^2",
                                  closed.empty() ? 0.0 : 1e6 * closed.front().area),
                      "lower `smallest_tear`, or label the blood in the tears as lumen");
-  list(tears, closed, smallest, log);
+  list(tears, closed, smallest, bounds, log);
   return tears;
 }
 

@@ -33,6 +33,10 @@ struct TearBounds {
   double smallest_of(std::vector<double> areas) const;
 };
 
+/// A warning in the log where places that were closed are as large as tears of clean labels.
+void warn_of_closed(const std::vector<double>& areas, const std::string& what, const TearBounds& bounds,
+                    const Log& log);
+
 /// The two sides of the flap in a box that holds the false lumen.
 struct FlapSides {
   ImageFrame frame;            ///< of the box

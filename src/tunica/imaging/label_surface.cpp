@@ -91,17 +91,19 @@ TriangleSurface largest_parts(const TriangleSurface& surface, int count) {
   return result;
 }
 
-/// Takes what is left of the voxels, and what is noise of the labels, without making triangles cross.
+/// Takes what is left of the voxels, and what is noise of the labels. Triangles may cross afterwards.
 void take_noise(TriangleSurface& surface, double voxel, const Log& log) {
-  const auto contour = surface.points;
   smooth_surface(surface, smoothing_sweeps);
   const double rough = roughness(surface);
   log(fmt::format("roughness of the surface: {:.2f} voxels", rough / voxel));
-  if (rough > roughest * voxel) {
-    smooth_rough_surface(surface, farthest_way * rough);
-    log(fmt::format("the labels are rough: noise of {:.2f} mm is taken from the surface, which then has {:.2f} mm",
-                    1e3 * rough, 1e3 * roughness(surface)));
-  }
+  if (rough <= roughest * voxel) return;
+  smooth_rough_surface(surface, farthest_way * rough);
+  log(fmt::format("the labels are rough: noise of {:.2f} mm is taken from the surface, which then has {:.2f} mm",
+                  1e3 * rough, 1e3 * roughness(surface)));
+}
+
+/// Where triangles cross, points go back towards those of the `contour`.
+void keep_apart(TriangleSurface& surface, const std::vector<Point>& contour, double voxel, const Log& log) {
   if (const auto moved = untangle(surface, contour, thinnest_wall * voxel); moved > 0)
     log(fmt::format("{} points are kept where the labels have them, since triangles would cross", moved));
 }
@@ -202,7 +204,9 @@ TriangleSurface around_thrombus(const LabelImage& image, const SurfaceSettings& 
   drop_beyond_ends(mask);
   auto surface = largest_parts(
       boundary(smooth_field(mask, filter_width(image.frame, settings) / smallest_spacing(mask.frame))), 1);
+  const auto contour = surface.points;
   take_noise(surface, voxel, say);
+  keep_apart(surface, contour, voxel, say);
   return cut_open(std::move(surface), ends, voxel, 1);
 }
 
@@ -332,8 +336,10 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   for (const auto& end : result.ends) continue_beyond(end, continued * voxel, mask);
   drop_beyond_ends(mask);
   auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, rings, log)), result.parts);
+  auto contour = surface.points;
   take_noise(surface, voxel, log);
-  if (!result.tears.empty()) result.tear_areas = narrow_tears(mask, result.tears, surface, log);
+  if (!result.tears.empty()) result.tear_areas = narrow_tears(mask, result.tears, surface, contour, log);
+  keep_apart(surface, contour, voxel, log);
   result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
   result.of_false_lumen = points_at(Kind::false_lumen, mask, result.lumen);
   log_shape(result, log);

@@ -258,6 +258,7 @@ std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bound
     std::vector<double> areas;
     for (const auto& handle : handles) areas.push_back(area_of(mask.frame, handle.voxels));
     const double smallest = bounds.smallest_of(areas);
+    std::vector<double> closed;
     for (std::size_t h = 0; h < handles.size(); ++h) {
       const auto& voxels = handles[h].voxels;
       const auto place = in_mm(middle_of(mask.frame, voxels));
@@ -280,12 +281,14 @@ std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bound
         continue;
       }
       for (const auto i : voxels) mask.kinds[i] = Kind::tissue;
+      if (!vessels) closed.push_back(areas[h]);
       log(fmt::format("{} at {} closed, {:.1f} mm^2",
                       vessels     ? "bridge between vessels"
                       : dissected ? "ring of the false lumen"
                                   : "hole in the flap",
                       place, 1e6 * areas[h]));
     }
+    warn_of_closed(closed, "rings", bounds, log);
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return kept;

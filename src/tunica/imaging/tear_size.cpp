@@ -66,28 +66,32 @@ double share_of(double distance) {
   return s * s * (3 - 2 * s);
 }
 
+/// How far a place is drawn towards the middle of the tear that it is nearest to.
+Vec3<double> way_about(const Point& p, const SmoothField& to_tear, const std::vector<Contact>& tears,
+                       const std::vector<Open>& open) {
+  const Vec3<double> v = to_tear.to_voxels * (p - to_tear.frame.origin);
+  for (int d = 0; d < 3; ++d)
+    if (v[d] < 0 || v[d] >= static_cast<double>(to_tear.frame.size[d] - 1)) return {};
+  const double share = share_of(to_tear.at(p));
+  const auto t = nearest(tears, p);
+  const double area = norm(open[t].area);
+  if (share == 0 || area == 0) return {};
+  const double scale = std::clamp(std::sqrt(tears[t].area / area), least_scale, most_scale);
+  const Vec3<double> normal = (1 / area) * open[t].area, way = p - open[t].centre;
+  return (share * (scale - 1)) * (way - dot(way, normal) * normal);
+}
+
 }  // namespace
 
 std::vector<double> narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears,
-                                 geometry::TriangleSurface& surface, const Log& log) {
+                                 geometry::TriangleSurface& surface, std::vector<Point>& contour, const Log& log) {
   std::vector<std::int64_t> all;
   for (const auto& tear : tears) all.insert(all.end(), tear.voxels.begin(), tear.voxels.end());
   const auto sides = flap_sides(mask, all);
   const auto before = open_parts(sides, tears, geometry::TriangleTree(surface));
   const SmoothField distance{sides.frame, inverse(sides.frame.matrix()), sides.to_tear};
-  for (auto& p : surface.points) {
-    const Vec3<double> v = distance.to_voxels * (p - sides.frame.origin);
-    bool within = true;
-    for (int d = 0; d < 3; ++d) within = within && v[d] >= 0 && v[d] < static_cast<double>(sides.frame.size[d] - 1);
-    const double share = within ? share_of(distance.at(p)) : 0;
-    if (share == 0) continue;
-    const auto t = nearest(tears, p);
-    const double area = norm(before[t].area);
-    if (area == 0) continue;
-    const double scale = std::clamp(std::sqrt(tears[t].area / area), least_scale, most_scale);
-    const Vec3<double> normal = (1 / area) * before[t].area, way = p - before[t].centre;
-    p = p + (share * (scale - 1)) * (way - dot(way, normal) * normal);
-  }
+  for (auto* points : {&surface.points, &contour})
+    for (auto& p : *points) p = p + way_about(p, distance, tears, before);
   std::vector<double> result;
   for (const auto& part : open_parts(sides, tears, geometry::TriangleTree(surface))) result.push_back(norm(part.area));
   for (std::size_t t = 0; t < tears.size(); ++t)
