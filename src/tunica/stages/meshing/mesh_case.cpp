@@ -13,6 +13,8 @@
 #include "tunica/files/heartbeat.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
+#include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/quality.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/meshing/fidelity.hpp"
@@ -54,6 +56,22 @@ void compare_tears(const geometry::TriangleSurface& lumen, int parts, std::size_
                     tears, genus, genus + 1));
 }
 
+/// Walls that touch leave elements without volume between them, which no exchange of elements mends.
+void check_volumes(const geometry::Tetrahedra& mesh) {
+  constexpr double flattest = 1e-3;  // degrees
+  std::vector<geometry::Point> flat;
+  for (const auto& element : mesh.elements) {
+    std::array<geometry::Point, 4> corners;
+    for (int k = 0; k < 4; ++k) corners[k] = mesh.points[element[k]];
+    if (mesh::quality(corners).smallest_dihedral < flattest) flat.push_back(mesh::centroid(mesh.points, element));
+  }
+  if (!flat.empty())
+    throw SolverError(
+        fmt::format("{} elements have no volume, at {}: walls touch there, or a flap is thinner than the elements can "
+                    "follow; part or thicken it there, or give a finer `size`",
+                    flat.size(), geometry::list_places_mm(flat)));
+}
+
 std::string summary_of(const geometry::Tetrahedra& mesh, const std::vector<meshing::Tear>& tears) {
   std::string text = fmt::format("{} tetrahedra, {} tears", mesh.elements.size(), tears.size());
   for (std::size_t t = 0; t < tears.size(); ++t)
@@ -88,6 +106,7 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   phases.begin("shapes");
   const auto project = meshing::projection(prepared);
   meshing::improve(mesh, project, {}, tell);
+  check_volumes(mesh);
   if (mesh_case.elements_through_wall > 1) {
     phases.begin("layers");
     tell(fmt::format("{} nodes added",
