@@ -60,6 +60,13 @@ void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed,
   std::vector<double> areas;
   for (const auto& contact : closed) areas.push_back(contact.area);
   warn_of_closed(areas, "contacts of the lumens", bounds, log);
+  if (!bounds.smallest && std::ssize(closed) >= many_small)
+    for (const auto& tear : tears)
+      if (tear.area < 6 * bounds.at_least())
+        log(
+            fmt::format("warning: the labels are rough, and the tear of {:.0f} mm^2 at {} may be noise: if so, give "
+                        "`smallest_tear`",
+                        1e6 * tear.area, in_mm(tear.centre)));
 }
 
 /// The voxels between the lumens within the circle of a given tear.
@@ -93,9 +100,9 @@ double TearBounds::smallest_of(std::vector<double> areas) const {
   const auto small = std::lower_bound(areas.begin(), areas.end(), at_least());
   if (smallest || small - areas.begin() < many_small) return at_least();
   // What noise opens has areas whose tail falls about exponentially, so that the next larger one is farther off than
-  // four times the mean of the tail once in fifty times: then it is a tear, and so are all that are larger.
+  // 4.5 times the mean of the tail once in ninety times: then it is a tear, and so are all that are larger.
   constexpr std::ptrdiff_t of_tail = 10;
-  constexpr double apart = 4;
+  constexpr double apart = 4.5;
   const double bound = 6 * at_least();
   for (auto next = small; next != areas.end() && *next < bound; ++next) {
     const auto first = next - std::min(of_tail, next - areas.begin() - 1);
