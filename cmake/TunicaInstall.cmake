@@ -40,7 +40,7 @@ if(TARGET tunica_python)
 endif()
 
 # For build systems other than CMake: pkg-config --cflags --libs tunica. Libraries without a file of their own are named
-# by their paths.
+# by their paths, Ceres by its name, so that the shared one is taken, which knows what it needs.
 set(pc_rooms)
 foreach(room ${rooms})
   get_target_property(type ${room} TYPE)
@@ -49,7 +49,7 @@ foreach(room ${rooms})
   endif()
 endforeach()
 set(pc_files ${METIS_LIBRARY} ${TETGEN_LIBRARY} ${GMP_LIBRARY} ${MPFR_LIBRARY})
-foreach(target ${TUNICA_VTK_LIBRARIES} Ceres::ceres meshoptimizer::meshoptimizer)
+foreach(target ${TUNICA_VTK_LIBRARIES} meshoptimizer::meshoptimizer)
   list(APPEND pc_files "$<TARGET_LINKER_FILE:${target}>")
 endforeach()
 list(REMOVE_ITEM pc_files optimized debug)
@@ -62,6 +62,6 @@ Description: ${PROJECT_DESCRIPTION}
 Version: ${PROJECT_VERSION}
 Requires: PETSc ompi-cxx fmt yaml-cpp muparser expat zlib librsvg-2.0
 Cflags: -I\${pcfiledir}/${pc_include} -std=c++20 -Wno-psabi -DFMT_SHARED
-Libs: -L\${pcfiledir}/.. -Wl,--copy-dt-needed-entries -Wl,--start-group${pc_rooms} -Wl,--end-group ${pc_files}
+Libs: -L\${pcfiledir}/.. -Wl,--copy-dt-needed-entries -Wl,--start-group${pc_rooms} -Wl,--end-group ${pc_files} -lceres -lglog
 ")
 install(FILES ${CMAKE_BINARY_DIR}/tunica.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
