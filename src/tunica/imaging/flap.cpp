@@ -62,7 +62,7 @@ void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed,
   warn_of_closed(areas, "contacts of the lumens", bounds, log);
   if (!bounds.smallest && std::ssize(closed) >= many_small)
     for (const auto& tear : tears)
-      if (tear.area < 6 * bounds.at_least())
+      if (tear.area < bounds.largest_noise())
         log(
             fmt::format("warning: the labels are rough, and the tear of {:.0f} mm^2 at {} may be noise: if so, give "
                         "`smallest_tear`",
@@ -103,13 +103,12 @@ double TearBounds::smallest_of(std::vector<double> areas) const {
   // 4.5 times the mean of the tail once in ninety times: then it is a tear, and so are all that are larger.
   constexpr std::ptrdiff_t of_tail = 10;
   constexpr double apart = 4.5;
-  const double bound = 6 * at_least();
-  for (auto next = small; next != areas.end() && *next < bound; ++next) {
+  for (auto next = small; next != areas.end() && *next < largest_noise(); ++next) {
     const auto first = next - std::min(of_tail, next - areas.begin() - 1);
     const double mean = std::accumulate(first, next, 0.0) / static_cast<double>(next - first) - *(first - 1);
     if (*next - *(next - 1) > apart * mean) return std::max(at_least(), std::sqrt(*next * *(next - 1)));
   }
-  return bound;
+  return largest_noise();
 }
 
 void warn_of_closed(const std::vector<double>& areas, const std::string& what, const TearBounds& bounds,

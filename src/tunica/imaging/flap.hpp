@@ -28,6 +28,8 @@ struct TearBounds {
 
   /// 10 mm^2.
   double at_least() const { return smallest.value_or(10e-6); }
+  /// Noise opens nothing larger.
+  double largest_noise() const { return 6 * at_least(); }
   /// Of these open places, the area from which on they are tears: `at_least`, or, where five are smaller, so that the
   /// labels are rough, up to six times as much: where one stands apart from the tail of those that noise makes.
   double smallest_of(std::vector<double> areas) const;

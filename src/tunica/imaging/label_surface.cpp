@@ -210,23 +210,28 @@ TriangleSurface around_thrombus(const LabelImage& image, const SurfaceSettings& 
   return cut_open(std::move(surface), ends, voxel, 1);
 }
 
-/// The smooth field, with the topology of the labels.
-SmoothField lumen_field(const LumenMask& mask, const SurfaceSettings& settings, double sigma,
-                        const std::vector<Contact>& tears, std::int64_t rings, const Log& log) {
-  const double voxel = mask.frame.largest_spacing();
-  auto field = smooth_field(mask, sigma);
-  if (!settings.labels.false_lumen) {
-    settle(nullptr, {}, rings, field, log);
-    return field;
-  }
+/// None where both lumens have one label.
+std::optional<FlapSides> sides_of(const LumenMask& mask, const SurfaceSettings& settings,
+                                  const std::vector<Contact>& tears) {
+  if (!settings.labels.false_lumen) return {};
   std::vector<std::int64_t> open;
   for (const auto& tear : tears) open.insert(open.end(), tear.voxels.begin(), tear.voxels.end());
-  const auto sides = flap_sides(mask, open);
-  const double gap = std::max(settings.flap.insert.value_or(0), thinnest_flap * voxel);
-  // Of 2 G - G * G across a plane.
-  const double slope = (2 - std::sqrt(0.5)) / std::sqrt(2 * M_PI) / (sigma * voxel);
-  hold_apart(sides, gap, slope, mask.frame, field);
-  settle(&sides, tears, rings, field, log);
+  return flap_sides(mask, open);
+}
+
+/// The smooth field, with the topology of the labels. `sides`: none where both lumens have one label.
+SmoothField lumen_field(const LumenMask& mask, const SurfaceSettings& settings, double sigma,
+                        const std::optional<FlapSides>& sides, const std::vector<Contact>& tears, std::int64_t rings,
+                        const Log& log) {
+  auto field = smooth_field(mask, sigma);
+  if (sides) {
+    const double voxel = mask.frame.largest_spacing();
+    const double gap = std::max(settings.flap.insert.value_or(0), thinnest_flap * voxel);
+    // Of 2 G - G * G across a plane.
+    const double slope = (2 - std::sqrt(0.5)) / std::sqrt(2 * M_PI) / (sigma * voxel);
+    hold_apart(*sides, gap, slope, mask.frame, field);
+  }
+  settle(sides ? &*sides : nullptr, tears, rings, field, log);
   return field;
 }
 
@@ -335,10 +340,12 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   check_inlet(mask, inlet_of(result.ends, settings));
   for (const auto& end : result.ends) continue_beyond(end, continued * voxel, mask);
   drop_beyond_ends(mask);
-  auto surface = largest_parts(boundary(lumen_field(mask, settings, sigma, result.tears, rings, log)), result.parts);
+  const auto sides = sides_of(mask, settings, result.tears);
+  auto surface =
+      largest_parts(boundary(lumen_field(mask, settings, sigma, sides, result.tears, rings, log)), result.parts);
   auto contour = surface.points;
   take_noise(surface, voxel, log);
-  if (!result.tears.empty()) result.tear_areas = narrow_tears(mask, result.tears, surface, contour, log);
+  if (!result.tears.empty()) result.tear_areas = narrow_tears(*sides, result.tears, surface, contour, log);
   keep_apart(surface, contour, voxel, log);
   result.lumen = cut_open(std::move(surface), result.ends, voxel, result.parts);
   result.of_false_lumen = points_at(Kind::false_lumen, mask, result.lumen);

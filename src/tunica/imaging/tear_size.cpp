@@ -83,11 +83,8 @@ Vec3<double> way_about(const Point& p, const SmoothField& to_tear, const std::ve
 
 }  // namespace
 
-std::vector<double> narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears,
+std::vector<double> narrow_tears(const FlapSides& sides, const std::vector<Contact>& tears,
                                  geometry::TriangleSurface& surface, std::vector<Point>& contour, const Log& log) {
-  std::vector<std::int64_t> all;
-  for (const auto& tear : tears) all.insert(all.end(), tear.voxels.begin(), tear.voxels.end());
-  const auto sides = flap_sides(mask, all);
   const auto before = open_parts(sides, tears, geometry::TriangleTree(surface));
   const SmoothField distance{sides.frame, inverse(sides.frame.matrix()), sides.to_tear};
   for (auto* points : {&surface.points, &contour})

@@ -9,7 +9,7 @@ namespace tunica::imaging {
 /// rougher the labels are. Space is drawn together about the middle of each tear, by less the farther from it, and not
 /// at all beyond some millimetres, with the surface and its `contour` between the voxels in it; so nothing can cross
 /// and no tear can close. Lists the areas in the log, and returns those of the surface then [m^2].
-std::vector<double> narrow_tears(const LumenMask& mask, const std::vector<Contact>& tears,
+std::vector<double> narrow_tears(const FlapSides& sides, const std::vector<Contact>& tears,
                                  geometry::TriangleSurface& surface, std::vector<Point>& contour, const Log& log);
 
 }  // namespace tunica::imaging

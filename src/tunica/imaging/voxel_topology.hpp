@@ -18,12 +18,12 @@ using VoxelSet = std::vector<std::uint8_t>;
 /// not at the border of the frame.
 bool is_simple(const ImageFrame& frame, const VoxelSet& set, std::int64_t index);
 
-/// A place where a set closes to a ring, with the voxels that have to be taken out to open it.
 inline constexpr double longest_way = 0.1;  // m; the way round a handle is not looked for farther
 
+/// A place where a set closes to a ring, with the voxels that have to be taken out to open it.
 struct Handle {
   std::vector<std::int64_t> voxels;
-  double way = 0;  ///< from one side to the other within the set, not through these voxels [m]; 0: none was found
+  double way = 0;  ///< from one side to the other, not through these voxels [m], up to `longest_way`; 0: none was found
 };
 
 /// Grows a ball to the largest part of `set` that has neither handles nor cavities, deep voxels first, so that a ring
