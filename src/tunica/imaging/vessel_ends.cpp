@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <set>
+
+#include "tunica/base/disjoint_sets.hpp"
 
 namespace tunica::imaging {
 
@@ -65,29 +66,24 @@ std::vector<std::int64_t> tips(const std::vector<float>& way, const LumenMask& m
     if (std::isfinite(way[i])) order.push_back(i);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return way[a] > way[b]; });
   std::vector<std::int32_t> part(way.size(), -1);  // of voxels that were seen
-  std::vector<std::int32_t> parent;
+  base::DisjointSets parts;
   std::vector<std::int64_t> peak, result;
-  const auto root = [&](std::int32_t p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
   for (const auto i : order) {
-    std::int32_t mine = -1;
+    std::int64_t mine = -1;
     for_each_neighbour(mask.frame, i, [&](std::int64_t other, const Size3&) {
       if (part[other] < 0) return;
-      auto theirs = root(part[other]);
+      auto theirs = parts.set_of(part[other]);
       if (mine < 0) mine = theirs;
       if (mine == theirs) return;
       if (way[peak[mine]] < way[peak[theirs]]) std::swap(mine, theirs);
       if (way[peak[theirs]] - way[i] > shortest_branch) result.push_back(peak[theirs]);
-      parent[theirs] = mine;
+      parts.join(theirs, mine);
     });
     if (mine < 0) {
-      mine = static_cast<std::int32_t>(parent.size());
-      parent.push_back(mine);
+      mine = parts.add();
       peak.push_back(i);
     }
-    part[i] = mine;
+    part[i] = static_cast<std::int32_t>(mine);
   }
   if (!order.empty()) result.push_back(order.front());
   return result;

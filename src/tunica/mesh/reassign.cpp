@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 
+#include "tunica/base/disjoint_sets.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 
@@ -223,18 +224,13 @@ std::vector<int> lumen_parts(const MeshData& data) {
       for (auto e = region.first_element; e < region.end_element; ++e, ++count)
         for (const auto& side : sides(data.tetrahedra[at(e)])) at_sides.emplace_back(sorted(side), count);
   std::sort(at_sides.begin(), at_sides.end());
-  std::vector<Index> parent(at(count));
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index k) {
-    while (parent[at(k)] != k) k = parent[at(k)] = parent[at(parent[at(k)])];
-    return k;
-  };
+  base::DisjointSets parts(count);
   for (std::size_t k = 1; k < at_sides.size(); ++k)
-    if (at_sides[k].first == at_sides[k - 1].first) parent[at(root(at_sides[k].second))] = root(at_sides[k - 1].second);
+    if (at_sides[k].first == at_sides[k - 1].first) parts.join(at_sides[k].second, at_sides[k - 1].second);
   std::map<Index, int> number;
   std::vector<int> part;
   for (Index k = 0; k < count; ++k)
-    part.push_back(number.try_emplace(root(k), static_cast<int>(number.size())).first->second);
+    part.push_back(number.try_emplace(parts.set_of(k), static_cast<int>(number.size())).first->second);
   return part;
 }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <queue>
 
+#include "tunica/base/disjoint_sets.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
 
@@ -346,13 +346,8 @@ void smooth_borders(const geometry::Tetrahedra& mesh, const std::vector<std::arr
 /// Pockets of one sign within the other, where the way across a groove of the wall was taken for a flap, get the sign
 /// around them.
 void drop_pockets(const geometry::Tetrahedra& mesh, std::vector<double>& side) {
-  constexpr double smallest = 0.01;                // of the largest piece of that sign
-  std::vector<geometry::Index> next(side.size());  // towards the first node of a piece
-  std::iota(next.begin(), next.end(), geometry::Index{0});
-  const auto piece = [&](geometry::Index n) {
-    while (next[n] != n) n = next[n] = next[next[n]];
-    return n;
-  };
+  constexpr double smallest = 0.01;  // of the largest piece of that sign
+  base::DisjointSets pieces(std::ssize(side));
   const auto for_each_lumen_element = [&](const auto& visit) {
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
       if (mesh.labels[e] == geometry::lumen_label) visit(mesh.elements[e]);
@@ -360,17 +355,17 @@ void drop_pockets(const geometry::Tetrahedra& mesh, std::vector<double>& side) {
   for_each_lumen_element([&](const auto& nodes) {
     for (int a = 0; a < 4; ++a)
       for (int b = a + 1; b < 4; ++b)
-        if ((side[nodes[a]] > 0) == (side[nodes[b]] > 0)) next[piece(nodes[a])] = piece(nodes[b]);
+        if ((side[nodes[a]] > 0) == (side[nodes[b]] > 0)) pieces.join(nodes[a], nodes[b]);
   });
-  std::vector<double> volumes(side.size(), 0.0);  // of a piece, at its first node
+  std::vector<double> volumes(side.size(), 0.0);  // of a piece, at the node that stands for it
   for_each_lumen_element([&](const auto& nodes) {
-    for (const auto n : nodes) volumes[piece(n)] += 0.25 * mesh::volume(mesh.points, nodes);
+    for (const auto n : nodes) volumes[pieces.set_of(n)] += 0.25 * mesh::volume(mesh.points, nodes);
   });
   double largest[2] = {0, 0};
   for (std::size_t n = 0; n < side.size(); ++n) largest[side[n] > 0] = std::max(largest[side[n] > 0], volumes[n]);
   const auto before = side;
   for (std::size_t n = 0; n < side.size(); ++n)
-    if (const double volume = volumes[piece(static_cast<geometry::Index>(n))];
+    if (const double volume = volumes[pieces.set_of(static_cast<geometry::Index>(n))];
         volume > 0 && volume < smallest * largest[before[n] > 0])
       side[n] = -before[n];
 }
