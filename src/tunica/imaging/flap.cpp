@@ -14,8 +14,7 @@ namespace tunica::imaging {
 
 namespace {
 
-constexpr double facing = 2.5e-3;  // m; lumens nearer to the surface between them have a flap there
-constexpr std::size_t most_listed = 20;
+constexpr double facing = 2.5e-3;         // m; lumens nearer to the surface between them have a flap there
 constexpr std::ptrdiff_t many_small = 5;  // so many small contacts are no accident
 
 FlapSides box_about_false_lumen(const LumenMask& mask) {
@@ -48,25 +47,51 @@ VoxelSet voxels_in(const LumenMask& mask, const FlapSides& box, Kind kind) {
   return set;
 }
 
-void list(const std::vector<Contact>& tears, const std::vector<Contact>& closed, double smallest,
-          const TearBounds& bounds, const Log& log) {
-  for (const auto& tear : tears)
+/// How wide the lumens are open at the contacts.
+std::vector<OpenPlace> places_of(const LumenMask& mask, const std::vector<Contact>& contacts) {
+  const auto box = box_about_false_lumen(mask);
+  auto blood = voxels_in(mask, box, Kind::true_lumen);
+  const auto of_false = voxels_in(mask, box, Kind::false_lumen);
+  for (std::size_t i = 0; i < blood.size(); ++i) blood[i] |= of_false[i];
+  const auto to_blood = signed_distance(box.frame, blood);
+  std::vector<OpenPlace> places;
+  for (const auto& contact : contacts) {
+    auto& place = places.emplace_back(OpenPlace{contact.area, 0});
+    for (const auto i : contact.voxels) {
+      const auto v = mask.frame.voxel(i);
+      const auto b = box.frame.index(v[0] - box.low[0], v[1] - box.low[1], v[2] - box.low[2]);
+      place.radius = std::max(place.radius, -double{to_blood[b]});
+    }
+  }
+  return places;
+}
+
+struct SortedContacts {
+  std::vector<Contact> tears, closed;
+  std::vector<OpenPlace> of_tears, of_closed;
+  double noise = 0;  ///< m^2; 0: the labels are clean
+};
+
+void list(const SortedContacts& contacts, const TearBounds& bounds, const Log& log) {
+  for (const auto& tear : contacts.tears)
     log(fmt::format("tear of {:.0f} mm^2 at {}: there true and false lumen touch", 1e6 * tear.area,
                     in_mm(tear.centre)));
-  for (std::size_t i = 0; i < std::min(closed.size(), most_listed); ++i)
-    log(fmt::format("contact of {:.2f} mm^2 at {} closed: smaller than `smallest_tear`, {:.0f} mm^2",
-                    1e6 * closed[i].area, in_mm(closed[i].centre), 1e6 * smallest));
-  if (closed.size() > most_listed) log(fmt::format("and {} smaller ones", closed.size() - most_listed));
-  std::vector<double> areas;
-  for (const auto& contact : closed) areas.push_back(contact.area);
-  warn_of_closed(areas, "contacts of the lumens", bounds, log);
-  if (!bounds.smallest && std::ssize(closed) >= many_small)
-    for (const auto& tear : tears)
-      if (tear.area < bounds.largest_noise())
-        log(
-            fmt::format("warning: the labels are rough, and the tear of {:.0f} mm^2 at {} may be noise: if so, give "
-                        "`smallest_tear`",
-                        1e6 * tear.area, in_mm(tear.centre)));
+  for (std::size_t i = 0; i < std::min(contacts.closed.size(), most_listed); ++i) {
+    const bool small = contacts.closed[i].area < bounds.at_least();
+    log(fmt::format("contact of {:.2f} mm^2, {:.1f} mm wide, at {} closed: {}", 1e6 * contacts.closed[i].area,
+                    2e3 * contacts.of_closed[i].radius, in_mm(contacts.closed[i].centre),
+                    small ? fmt::format("smaller than `smallest_tear`, {:.0f} mm^2", 1e6 * bounds.at_least())
+                          : "like what noise opens elsewhere"));
+  }
+  if (contacts.closed.size() > most_listed)
+    log(fmt::format("and {} smaller ones", contacts.closed.size() - most_listed));
+  warn_of_closed(contacts.of_closed, "contacts of the lumens", bounds, log);
+  for (std::size_t i = 0; i < contacts.tears.size(); ++i)
+    if (contacts.noise > 0 && contacts.of_tears[i].size() < 2 * contacts.noise)
+      log(
+          fmt::format("warning: the labels are rough, and the tear of {:.0f} mm^2 at {} may be noise: if so, give "
+                      "`smallest_tear`",
+                      1e6 * contacts.tears[i].area, in_mm(contacts.tears[i].centre)));
 }
 
 /// The voxels between the lumens within the circle of a given tear.
@@ -95,29 +120,41 @@ std::vector<Contact> given_tears(const LumenMask& mask, const std::vector<GivenT
 
 }  // namespace
 
-double TearBounds::smallest_of(std::vector<double> areas) const {
-  std::sort(areas.begin(), areas.end());
-  const auto small = std::lower_bound(areas.begin(), areas.end(), at_least());
-  if (smallest || small - areas.begin() < many_small) return at_least();
-  // What noise opens has areas whose tail falls about exponentially, so that the next larger one is farther off than
-  // 4.5 times the mean of the tail once in ninety times: then it is a tear, and so are all that are larger.
-  constexpr std::ptrdiff_t of_tail = 10;
-  constexpr double apart = 4.5;
-  for (auto next = small; next != areas.end() && *next < largest_noise(); ++next) {
-    const auto first = next - std::min(of_tail, next - areas.begin() - 1);
-    const double mean = std::accumulate(first, next, 0.0) / static_cast<double>(next - first) - *(first - 1);
-    if (*next - *(next - 1) > apart * mean) return std::max(at_least(), std::sqrt(*next * *(next - 1)));
+double OpenPlace::size() const { return std::sqrt(area * M_PI) * radius; }
+
+double TearBounds::noise_among(const std::vector<OpenPlace>& places, double voxel) const {
+  constexpr double widest_speck = 1.8;  // voxels; half the width that noise opens easily
+  std::vector<double> sizes;
+  std::ptrdiff_t small = 0;
+  double noise = 0;
+  for (const auto& place : places) {
+    sizes.push_back(place.size());
+    small += place.area < at_least();
+    if (place.area < at_least() || place.radius < widest_speck * voxel) noise = std::max(noise, place.size());
+  }
+  if (smallest || small < many_small) return 0;
+  // What noise opens has sizes whose tail falls about exponentially: of n in a tail of mean m beyond a size, one is
+  // larger than that by m (ln n + 6) once in four hundred times. Then it is a tear, and so are all that are larger.
+  constexpr std::ptrdiff_t of_tail = 30;
+  constexpr double apart = 6;
+  std::sort(sizes.begin(), sizes.end());
+  auto next = std::upper_bound(sizes.begin(), sizes.end(), noise);
+  for (; next != sizes.end() && *next < largest_noise(); ++next) {
+    const auto first = next - std::min(of_tail, next - sizes.begin() - 1);
+    const auto n = static_cast<double>(next - first);
+    const double mean = std::accumulate(first, next, 0.0) / n - *(first - 1);
+    if (*next > *(first - 1) + mean * (std::log(n) + apart)) return *next;
   }
   return largest_noise();
 }
 
-void warn_of_closed(const std::vector<double>& areas, const std::string& what, const TearBounds& bounds,
+void warn_of_closed(const std::vector<OpenPlace>& closed, const std::string& what, const TearBounds& bounds,
                     const Log& log) {
   std::int64_t count = 0;
   double largest = 0;
-  for (const double area : areas) {
-    count += area >= bounds.at_least();
-    largest = std::max(largest, area);
+  for (const auto& place : closed) {
+    count += place.area >= bounds.at_least();
+    largest = std::max(largest, place.area);
   }
   if (count > 0)
     log(fmt::format(
@@ -178,16 +215,18 @@ std::vector<Contact> find_tears(const LumenMask& mask, const FlapSettings& flap,
     if (tears.empty()) log("warning: no tear joins true and false lumen: give `flap.tears` where there are some");
     return tears;
   }
-  std::vector<Contact> tears, closed;
   auto contacts = find_contacts(mask, 0);
-  std::vector<double> areas;
-  for (const auto& contact : contacts) areas.push_back(contact.area);
-  const double smallest = bounds.smallest_of(areas);
+  const auto places = places_of(mask, contacts);
+  SortedContacts sorted;
+  sorted.noise = bounds.noise_among(places, mask.frame.largest_spacing());
   double open = 0;
-  for (auto& contact : contacts) {
-    open += contact.touching;
-    (contact.area < smallest ? closed : tears).push_back(std::move(contact));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    open += contacts[i].touching;
+    const bool tear = bounds.is_tear(places[i], sorted.noise);
+    (tear ? sorted.tears : sorted.closed).push_back(std::move(contacts[i]));
+    (tear ? sorted.of_tears : sorted.of_closed).push_back(places[i]);
   }
+  const auto& tears = sorted.tears;
   const double share = open / std::max(flap_sides(mask, {}).area, open);
   if (share > bounds.most_open)
     throw InputError(
@@ -200,10 +239,10 @@ std::vector<Contact> find_tears(const LumenMask& mask, const FlapSettings& flap,
   if (tears.empty())
     throw InputError("flap",
                      fmt::format("no tear joins true and false lumen: the largest contact has {:.2f} mm^2",
-                                 closed.empty() ? 0.0 : 1e6 * closed.front().area),
+                                 sorted.closed.empty() ? 0.0 : 1e6 * sorted.closed.front().area),
                      "lower `smallest_tear`, or label the blood in the tears as lumen");
-  list(tears, closed, smallest, bounds, log);
-  return tears;
+  list(sorted, bounds, log);
+  return sorted.tears;
 }
 
 void hold_apart(const FlapSides& sides, double gap, double slope, const ImageFrame& frame, SmoothField& field) {

@@ -21,22 +21,33 @@ struct FlapSettings {
   static config::Schema<FlapSettings> schema();
 };
 
-/// Which places where the lumens touch are tears.
-struct TearBounds {
-  std::optional<double> smallest{};  ///< smaller contacts are closed [m^2]; none: see `smallest_of`
-  double most_open = 0.4;            ///< share of the flap that tears may take; with more, the labels have no flap
-
-  /// 10 mm^2.
-  double at_least() const { return smallest.value_or(10e-6); }
-  /// Noise opens nothing larger.
-  double largest_noise() const { return 6 * at_least(); }
-  /// Of these open places, the area from which on they are tears: `at_least`, or, where five are smaller, so that the
-  /// labels are rough, up to six times as much: where one stands apart from the tail of those that noise makes.
-  double smallest_of(std::vector<double> areas) const;
+/// Where two lumens touch, or the narrowest section of a ring.
+struct OpenPlace {
+  double area = 0;    ///< m^2
+  double radius = 0;  ///< of the largest ball around one of its points that holds blood alone [m]
+  /// Geometric mean of its area and that of the largest disc in it [m^2]: noise opens slits and crumbs, tears are wide.
+  double size() const;
 };
 
-/// A warning in the log where places that were closed are as large as tears of clean labels.
-void warn_of_closed(const std::vector<double>& areas, const std::string& what, const TearBounds& bounds,
+/// Which of the places where the lumens touch are tears.
+struct TearBounds {
+  std::optional<double> smallest{};  ///< smaller contacts are closed [m^2]; none: see `noise_among`
+  double most_open = 0.4;            ///< share of the flap that tears may take; with more, the labels have no flap
+
+  /// Area of the smallest tear: 10 mm^2 when not given.
+  double at_least() const { return smallest.value_or(10e-6); }
+  /// Size above which nothing counts as noise [m^2].
+  double largest_noise() const { return 6 * at_least(); }
+  /// Size below which these places in voxels of `voxel` [m] are noise [m^2]: 0 where a smallest area is given, or fewer
+  /// than five are smaller.
+  double noise_among(const std::vector<OpenPlace>& places, double voxel) const;
+  bool is_tear(const OpenPlace& place, double noise) const { return place.area >= at_least() && place.size() >= noise; }
+};
+
+constexpr std::size_t most_listed = 20;  ///< places that were closed
+
+/// A warning in the log where `closed` places are as large as tears of clean labels.
+void warn_of_closed(const std::vector<OpenPlace>& closed, const std::string& what, const TearBounds& bounds,
                     const Log& log);
 
 /// The two sides of the flap in a box that holds the false lumen.

@@ -298,7 +298,8 @@ void SurfaceSettings::add_to(config::Schema<SurfaceSettings>& schema) {
           "smallest_tear", [](S& s) -> std::optional<double>& { return s.tears.smallest; }, dimension::area,
           range(0, 1e-3),
           "Smaller contacts of true and false lumen are closed, and listed. When left out, 10 mm^2; where five are "
-          "smaller, so that the labels are rough, up to 60 mm^2: where one stands apart from what noise opens")
+          "smaller, so that the labels are rough, larger ones are closed too, up to 60 mm^2, but where one stands "
+          "apart from what noise opens")
       .number(
           "most_open", [](S& s) -> double& { return s.tears.most_open; }, range(0, 1),
           "Share of the surface between the lumens that tears may take; with more, the labels have no flap")
@@ -334,7 +335,7 @@ LabelSurface surface_of(const LabelImage& image, const SurfaceSettings& settings
   const double sigma = filter / smallest_spacing(mask.frame);
   if (dissected) result.tears = find_tears(mask, settings.flap, settings.tears, log);
   if (!settings.flap.insert) take_areas(contacts, result.tears);
-  const auto rings = open_rings(mask, dissected, settings.tears, settings.repairs[Repair::bridges], log);
+  const auto rings = open_rings(mask, settings, log);
   result.ends = choose_ends(mask, smooth_field(mask, sigma), settings, log);
   check_border(mask, result.ends);
   check_inlet(mask, inlet_of(result.ends, settings));

@@ -44,11 +44,14 @@ bool is_rough(const ImageFrame& frame, const Handle& handle) {
   return handle.way <= short_way || area < 4 * voxel * voxel || std::pow(2 * reach + voxel, 2) > film * area;
 }
 
-/// At most two voxels thick: the edge of a lumen that runs out in a wedge.
-bool is_film(const ImageFrame& frame, const std::vector<float>& depth, const std::vector<std::int64_t>& voxels) {
-  const auto shallower = [&](std::int64_t a, std::int64_t b) { return depth[a] < depth[b]; };
-  return depth[*std::max_element(voxels.begin(), voxels.end(), shallower)] < 1.2 * frame.largest_spacing();
+OpenPlace place_of(const ImageFrame& frame, const std::vector<float>& depth, const std::vector<std::int64_t>& voxels) {
+  OpenPlace place{area_of(frame, voxels), 0};
+  for (const auto i : voxels) place.radius = std::max(place.radius, double{depth[i]});
+  return place;
 }
+
+/// At most two voxels thick: the edge of a lumen that runs out in a wedge.
+bool is_film(const ImageFrame& frame, const OpenPlace& place) { return place.radius < 1.2 * frame.largest_spacing(); }
 
 class Settling {
  public:
@@ -245,49 +248,60 @@ class Settling {
 
 }  // namespace
 
-std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bounds, bool repair, const Log& log) {
+std::int64_t open_rings(LumenMask& mask, const SurfaceSettings& settings, const Log& log) {
+  const bool dissected = settings.labels.false_lumen.has_value();
+  const auto& bounds = settings.tears;
   std::int64_t kept = 0;
   std::vector<Problem> problems;
   for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
     auto set = voxels_of(mask.kinds, kind);
     if (std::count(set.begin(), set.end(), 1) == 0) continue;
     const auto depth = depth_in(mask.frame, set);
-    const auto handles = remove_handles(mask.frame, depth, set);
+    auto handles = remove_handles(mask.frame, depth, set);
+    std::stable_sort(handles.begin(), handles.end(),
+                     [](const Handle& a, const Handle& b) { return a.voxels.size() > b.voxels.size(); });
     // Vessels alone make rings where they are joined; in a false lumen, or where both have one label, rings are open.
     const bool vessels = dissected && kind == Kind::true_lumen;
-    std::vector<double> areas;
-    for (const auto& handle : handles) areas.push_back(area_of(mask.frame, handle.voxels));
-    const double smallest = bounds.smallest_of(areas);
-    std::vector<double> closed;
-    for (std::size_t h = 0; h < handles.size(); ++h) {
-      const auto& voxels = handles[h].voxels;
-      const auto place = in_mm(middle_of(mask.frame, voxels));
+    std::vector<OpenPlace> places;
+    std::vector<Handle> rings;
+    for (auto& handle : handles) {
       // Most roughness the filter takes away; `settle` does the rest.
-      if (vessels ? is_rough(mask.frame, handles[h]) : handles[h].way <= short_way) continue;
-      if (!vessels && areas[h] >= smallest && !(dissected && is_film(mask.frame, depth, voxels))) {
+      if (vessels ? is_rough(mask.frame, handle) : handle.way <= short_way) continue;
+      places.push_back(place_of(mask.frame, depth, handle.voxels));
+      rings.push_back(std::move(handle));
+    }
+    const double noise = bounds.noise_among(places, mask.frame.largest_spacing());
+    std::vector<OpenPlace> closed;
+    for (std::size_t h = 0; h < rings.size(); ++h) {
+      const auto& voxels = rings[h].voxels;
+      const auto place = in_mm(middle_of(mask.frame, voxels));
+      if (!vessels && bounds.is_tear(places[h], noise) && !(settings.flap.insert && is_film(mask.frame, places[h]))) {
         ++kept;
         log(fmt::format("the {}lumen makes a ring of {}{:.0f} mm, whose narrowest place is at {}, {:.0f} mm^2{}",
-                        dissected ? "false " : "", handles[h].way < longest_way ? "" : "at least ",
-                        1e3 * handles[h].way, place, 1e6 * areas[h], dissected ? "" : ": a tear"));
+                        dissected ? "false " : "", rings[h].way < longest_way ? "" : "at least ", 1e3 * rings[h].way,
+                        place, 1e6 * places[h].area, dissected ? "" : ": a tear"));
         continue;
       }
-      if (vessels && !repair) {
+      if (vessels && !settings.repairs[Repair::bridges]) {
         problems.push_back(
             {"image",
              fmt::format("the true lumen makes a ring of {}{:.0f} mm: vessels are joined by a bridge at {}, "
                          "{:.1f} mm^2",
-                         handles[h].way < longest_way ? "" : "at least ", 1e3 * handles[h].way, place, 1e6 * areas[h]),
+                         rings[h].way < longest_way ? "" : "at least ", 1e3 * rings[h].way, place,
+                         1e6 * places[h].area),
              "part them in the segmentation, or have the bridge cut by `repair: [bridges]`"});
         continue;
       }
       for (const auto i : voxels) mask.kinds[i] = Kind::tissue;
-      if (!vessels) closed.push_back(areas[h]);
-      log(fmt::format("{} at {} closed, {:.1f} mm^2",
-                      vessels     ? "bridge between vessels"
-                      : dissected ? "ring of the false lumen"
-                                  : "hole in the flap",
-                      place, 1e6 * areas[h]));
+      if (!vessels) closed.push_back(places[h]);
+      if (closed.size() <= most_listed)
+        log(fmt::format("{} at {} closed, {:.1f} mm^2",
+                        vessels     ? "bridge between vessels"
+                        : dissected ? "ring of the false lumen"
+                                    : "hole in the flap",
+                        place, 1e6 * places[h].area));
     }
+    if (closed.size() > most_listed) log(fmt::format("and {} smaller ones", closed.size() - most_listed));
     warn_of_closed(closed, "rings", bounds, log);
   }
   if (!problems.empty()) throw InputError(std::move(problems));

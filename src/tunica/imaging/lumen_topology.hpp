@@ -2,15 +2,17 @@
 #pragma once
 
 #include "tunica/imaging/flap.hpp"
+#include "tunica/imaging/label_surface.hpp"
 #include "tunica/imaging/voxel_topology.hpp"
 
 namespace tunica::imaging {
 
 /// Opens rings that a lumen of the labels makes. Rings of vessels are bridges, which are an InputError with their
-/// places unless `repair`; short ones are roughness of the labels. Rings of a false lumen, and of a lumen that has one
-/// label for both (not `dissected`), are as they should be where their narrowest place is as large as a tear by
-/// `bounds`, and in a false lumen no film; returns how many of these there are.
-std::int64_t open_rings(LumenMask& mask, bool dissected, const TearBounds& bounds, bool repair, const Log& log);
+/// places where they are not to be repaired; short ones are roughness of the labels. Rings of a false lumen, and of a
+/// lumen that has one label for both, are as they should be where their narrowest place is a tear by the bounds;
+/// returns how many of these there are. Beside a flap that is inserted the false lumen runs out in wedges, whose rings
+/// are none.
+std::int64_t open_rings(LumenMask& mask, const SurfaceSettings& settings, const Log& log);
 
 /// Raises the field at voxels where the filter has joined what the labels have apart, so that true and false lumen have
 /// no handles, and touch in one place for each tear. `sides`: null where both lumens have one label. That, or else the

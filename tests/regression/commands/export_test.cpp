@@ -133,6 +133,22 @@ TEST_F(Export, CoursesComeBackAsTheyWere) {
     EXPECT_NEAR(back.at(name), first.at(name), 1e-7 * std::abs(first.at(name))) << name;
 }
 
+// As a Fourier series over the run it would swing at both its ends.
+TEST_F(Export, WhatStepsUpAtTheStartIsAValue) {
+  write("case.yaml",
+        "analysis: flow\nelements: linear\n"
+        "meshes: {tube: {radius: 5 mm, length: 2 cm, cells_around: 8, cells_radial: 1, cells_along: 4}}\n"
+        "fluid: {density: 1060 kg/m^3, viscosity: {newtonian: {viscosity: 4 mPa s}}, stabilisation: vms_classic}\n"
+        "boundary:\n"
+        "  lumen_inlet: {flow: {step: {value: 6 ml/s, end: 10 s}}}\n"
+        "  lumen_outlet: {pressure: 0 Pa}\n"
+        "  lumen_wall: no_slip\n"
+        "time: {step: 1 ms, steps: 4, rho_infinity: 0.5}\n");
+  ASSERT_EQ(tunica("export case.yaml -o out --units cgs"), 0) << printed();
+  EXPECT_EQ(printed().find("follow the course"), std::string::npos) << printed();
+  EXPECT_NE(read("out/solver.xml").find("<Value> -6 </Value>"), std::string::npos) << read("out/solver.xml");
+}
+
 TEST_F(Export, WritesResultsAsThePeerDoes) {
   write("case.yaml", coupled);
   EXPECT_EQ(tunica("export case.yaml -o peer --units cgs --results"), 2);  // there are none

@@ -84,24 +84,65 @@ TEST(DissectedTube, CoarseVoxelsKeepTheFlapAndItsTears) {
   for (std::size_t t = 0; t < 2; ++t) EXPECT_NEAR(result.tear_areas[t] / result.tears[t].area, 1, 0.08);
 }
 
+/// Those that are tears, by their areas.
+std::vector<double> tears_among(const std::vector<std::pair<double, double>>& area_mm2_and_radius_mm, double voxel,
+                                const TearBounds& bounds = {}) {
+  std::vector<OpenPlace> places;
+  for (const auto& [area, radius] : area_mm2_and_radius_mm) places.push_back({1e-6 * area, 1e-3 * radius});
+  const double noise = bounds.noise_among(places, voxel);
+  std::vector<double> tears;
+  for (const auto& [area, radius] : area_mm2_and_radius_mm)
+    if (bounds.is_tear({1e-6 * area, 1e-3 * radius}, noise)) tears.push_back(area);
+  return tears;
+}
+
 TEST(TearBounds, TellTearsFromWhatNoiseOpens) {
-  const auto smallest_of = [](std::vector<double> areas, TearBounds bounds = {}) {
-    for (auto& a : areas) a *= 1e-6;
-    return 1e6 * bounds.smallest_of(std::move(areas));
-  };
-  // Few small ones: the labels are clean, and what is larger is meant.
-  EXPECT_EQ(smallest_of({229, 220, 12, 8}), 10);
-  EXPECT_EQ(smallest_of({229, 220, 12, 8, 7, 6, 5, 4, 3}, {.smallest = 15e-6}), 15);
-  // Noise up to 13 mm^2 beside tears of 20 mm^2, and up to 46 mm^2 beside such of 134.
-  const double few = smallest_of({119, 91, 30.6, 20.1, 12.9, 11.5, 9.4, 9.1, 9.1, 8.3, 8.3, 8.2, 7.8, 7.8, 7.7});
-  EXPECT_GT(few, 12.9);
-  EXPECT_LT(few, 20.1);
-  const double rough = smallest_of({168, 134, 46, 27.5, 20.6, 18.7, 18.4, 9, 7, 5, 4, 3});
-  EXPECT_GT(rough, 46);
-  EXPECT_LT(rough, 134);
-  const double other = smallest_of({154, 96, 26, 16, 14, 11, 7.2, 4.9, 3, 2, 1, 1});
-  EXPECT_GT(other, 26);
-  EXPECT_LT(other, 96);
+  using Areas = std::vector<double>;
+  const OpenPlace disc{M_PI * 4e-6, 2e-3};
+  EXPECT_NEAR(disc.size(), disc.area, 1e-12);
+  // Few small ones: the labels are clean, and what is larger is meant, narrow or wide.
+  EXPECT_EQ(tears_among({{229, 5}, {220, 5}, {12, 0.6}, {8, 0.6}}, 0.8 * mm), (Areas{229, 220, 12}));
+  // Noise of half a voxel of 0.7 mm on a patient (the largest 44): up to 12 mm^2, tears from 22.
+  const std::vector<std::pair<double, double>> patient = {
+      {112.7, 4.35},  {74.89, 4.07},  {32.83, 2.62}, {21.73, 1.86},  {12.21, 1.22},  {9.751, 1.05}, {7.67, 0.637},
+      {7.084, 0.637}, {7.067, 0.637}, {6.464, 0.35}, {5.921, 0.861}, {5.565, 0.637}, {5.323, 0.35}, {5.232, 0.637},
+      {4.875, 0.637}, {4.623, 0.637}, {4.544, 0.35}, {4.437, 0.637}, {4.437, 0.35},  {4.244, 0.35}, {4.244, 0.35},
+      {4.215, 0.637}, {4.07, 0.35},   {4.07, 0.35},  {3.981, 0.637}, {3.981, 0.637}, {3.981, 0.35}, {3.981, 0.35},
+      {3.981, 0.637}, {3.951, 0.35},  {3.827, 0.35}, {3.827, 0.35},  {3.732, 0.637}, {3.533, 0.35}, {3.533, 0.637},
+      {3.499, 0.637}, {3.465, 0.861}, {3.287, 0.35}, {3.176, 0.637}, {3.099, 0.637}, {3.099, 0.35}, {3.099, 0.35},
+      {3.021, 0.35},  {2.94, 0.637}};
+  EXPECT_EQ(tears_among(patient, 0.7 * mm), (Areas{112.7, 74.89, 32.83, 21.73}));
+  EXPECT_EQ(tears_among(patient, 0.7 * mm, {.smallest = 12e-6}).size(), 5U) << "as is asked for";
+  // Noise up to 46 mm^2 beside tears of 134.
+  EXPECT_EQ(tears_among({{168, 5.5},
+                         {134, 5},
+                         {46, 1.6},
+                         {27.5, 1.3},
+                         {20.6, 1.4},
+                         {18.7, 1.2},
+                         {18.4, 1},
+                         {9, 0.7},
+                         {7, 0.7},
+                         {5, 0.7},
+                         {4, 0.4},
+                         {3, 0.4}},
+                        0.8 * mm),
+            (Areas{168, 134}));
+  // A narrow one beside small noise is no tear.
+  EXPECT_EQ(tears_among({{109, 3.9},
+                         {71.7, 3.4},
+                         {12.1, 0.8},
+                         {11.3, 1.5},
+                         {4.3, 0.8},
+                         {2.9, 0.8},
+                         {2.2, 0.4},
+                         {2.2, 0.4},
+                         {2.2, 0.4},
+                         {1.6, 0.4},
+                         {1.6, 0.8},
+                         {1.5, 0.4}},
+                        0.86 * mm),
+            (Areas{109, 71.7}));
 }
 
 TEST(DissectedTube, AHoleThatTheFilterClosesIsAnError) {

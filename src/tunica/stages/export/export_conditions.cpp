@@ -219,11 +219,13 @@ void FaceExport::sampled_course(Entry& entry, const bc::WaveformInput& input, co
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (int k = 0; k < sampled_points; ++k) {
     table.times.push_back(span * k / (sampled_points - 1));
-    table.values.push_back(waveform.value(table.times.back()));
+    // What steps up at the start has its value from then on; no code asks for that of the start itself.
+    table.values.push_back(waveform.value(k > 0 ? table.times.back() : 1e-6 * span));
     text += fmt::format("{:.12g} {:.12g}\n", table.times.back(), factor * table.values.back());
     lowest = std::min(lowest, table.values.back());
     highest = std::max(highest, table.values.back());
   }
+  if (highest == lowest) return add_key(entry, "Value", number(factor * highest));
   const auto series = bc::Waveform::table(
       table, {.interpolation = bc::Interpolation::fourier, .periodic = true, .modes = sampled_modes, .trend = true});
   double off = 0;
@@ -231,9 +233,8 @@ void FaceExport::sampled_course(Entry& entry, const bc::WaveformInput& input, co
     const double t = span * (k + 0.5) / (4 * (sampled_points - 1));
     off = std::max(off, std::abs(series.value(t) - waveform.value(t)));
   }
-  if (highest > lowest)
-    e_.change(where_, fmt::format("{} points and {} Fourier modes follow the course within {:.1e} of its range",
-                                  sampled_points, sampled_modes, off / (highest - lowest)));
+  e_.change(where_, fmt::format("{} points and {} Fourier modes follow the course within {:.1e} of its range",
+                                sampled_points, sampled_modes, off / (highest - lowest)));
   in_file(entry, "Temporal_values_file_path", ".flow", text);
 }
 
