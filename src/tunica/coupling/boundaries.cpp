@@ -424,6 +424,8 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
         for (const auto node : element) has_pressure[node] = 1;
   for (std::int32_t i = 0; i < mesh.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
   if (input.pressure_point) builder.hold_pressure(*input.pressure_point);
+  idle_pressures_ = find_idle_pressures(mesh, builder.held);
+  for (const auto& idle : idle_pressures_) builder.held[idle.node].pressure = true;
 
   // The mesh slides along openings and flat walls; curved walls at rest hold it.
   const auto still_face = [&](const std::string& name) {

@@ -9,6 +9,7 @@
 #include "tunica/assembly/block_matrix.hpp"
 #include "tunica/assembly/rank_one.hpp"
 #include "tunica/bc/conditions.hpp"
+#include "tunica/coupling/held_nodes.hpp"
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/surface_loads.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
@@ -53,6 +54,9 @@ class Boundaries {
 
   /// Owned nodes of every wall face that keeps its shape under its load.
   const std::vector<std::vector<std::int32_t>>& tied_nodes() const { return tied_nodes_; }
+
+  /// Pressures that the equations do not know, held as they are.
+  const std::vector<IdlePressure>& idle_pressures() const { return idle_pressures_; }
 
   /// Sets the prescribed velocities of time t [s], and the pressure that is held, in `velocity_pressure` ([local
   /// node][4]).
@@ -123,6 +127,7 @@ class Boundaries {
   std::vector<FieldNode> field_nodes_;
   std::int32_t pressure_node_ = -1;  ///< owned, whose pressure is held; -1: not on this rank
   double held_pressure_ = 0.0;       ///< [Pa]
+  std::vector<IdlePressure> idle_pressures_;
   std::vector<OutletFace> outlets_;
   std::vector<std::vector<std::int32_t>> tied_nodes_;
   std::vector<Mat3<double>> projector_;  ///< of constrained owned nodes, looked up through projector_of_

@@ -1,5 +1,9 @@
 #include "tunica/coupling/held_nodes.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+
 namespace tunica::coupling {
 
 void Held::direction(const Vec3<double>& n) {
@@ -29,6 +33,37 @@ std::vector<assembly::NodeConstraint> complete_on_ghosts(const distributed::Dist
     if (h.any()) list.push_back({i, h.P, h.pressure});
   }
   return list;
+}
+
+std::vector<IdlePressure> find_idle_pressures(const distributed::DistributedMesh& mesh, const std::vector<Held>& held) {
+  if (!mesh.quadratic) return {};
+  std::vector<double> mobile(mesh.nodes());
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) mobile[i] = trace(held[i].P);
+  mesh.halo.update(mobile, 1);
+  const auto moves = [&](std::int32_t node) { return mobile[mesh.host[node]] > 0; };
+  std::map<std::int32_t, IdlePressure> still;
+  std::vector<char> balanced(mesh.nodes(), 0);
+  for (const auto& region : mesh.regions) {
+    if (region.kind != mesh::RegionKind::lumen) continue;
+    for (std::size_t e = 0; e < region.elements.size(); ++e) {
+      const auto& corners = region.elements[e];
+      const auto& edges = region.edges[e];
+      const bool any =
+          std::any_of(corners.begin(), corners.end(), moves) || std::any_of(edges.begin(), edges.end(), moves);
+      for (const auto node : corners) {
+        balanced[node] |= any;
+        if (any || node >= mesh.owned_nodes) continue;
+        auto& idle = still[node];
+        idle.node = node;
+        std::copy_if(corners.begin(), corners.end(), std::back_inserter(idle.corners),
+                     [&](std::int32_t corner) { return corner != node; });
+      }
+    }
+  }
+  std::vector<IdlePressure> idle;
+  for (auto& [node, found] : still)
+    if (!balanced[node]) idle.push_back(std::move(found));
+  return idle;
 }
 
 }  // namespace tunica::coupling

@@ -26,4 +26,14 @@ struct Held {
 std::vector<assembly::NodeConstraint> complete_on_ghosts(const distributed::DistributedMesh& mesh,
                                                          const std::vector<Held>& held);
 
+/// A corner whose pressure nothing balances, and the other corners of its elements.
+struct IdlePressure {
+  std::int32_t node;  ///< owned
+  std::vector<std::int32_t> corners;
+};
+
+/// Of quadratic elements of a lumen: corners with no free velocity in any of their elements, such as a tetrahedron with
+/// three faces on rigid walls has. The equations do not know their pressure. Empty for linear elements. Collective.
+std::vector<IdlePressure> find_idle_pressures(const distributed::DistributedMesh& mesh, const std::vector<Held>& held);
+
 }  // namespace tunica::coupling

@@ -89,6 +89,7 @@ Problem::Problem(const distributed::DistributedMesh& mesh, const ProblemInput& i
     std::move(groups.begin(), groups.end(), std::back_inserter(lumen_groups_));
   }
   edges_ = distributed::edge_nodes(mesh);
+  has_idle_pressures_ = parallel::global_sum(mesh.comm, static_cast<double>(boundaries_.idle_pressures().size())) > 0;
   negligible_ = negligible_forces();
   if (lumen && wall) mesh_motion_.emplace(mesh, isa_, input.mesh_motion, boundaries_.mesh_constraints());
 
@@ -439,9 +440,15 @@ StepReport Problem::advance(State& state, double dt) {
   return report;
 }
 
-// Pressure is linear and lives at the corners: what nodes on edges show of it is for pictures.
+// Pressure is linear and lives at the corners: what nodes on edges show of it is for pictures, and so is that of
+// corners between rigid walls, which the equations do not know.
 void Problem::interpolate_pressure(State& state) const {
   auto& p = state.velocity_pressure;
+  for (const auto& [node, corners] : boundaries_.idle_pressures()) {
+    p[at(node) + 3] = 0;
+    for (const auto corner : corners) p[at(node) + 3] += p[at(corner) + 3] / static_cast<double>(corners.size());
+  }
+  if (has_idle_pressures_) mesh_.halo.update(p, 4);
   for (const auto& edge : edges_) p[at(edge.node) + 3] = 0.5 * (p[at(edge.ends[0]) + 3] + p[at(edge.ends[1]) + 3]);
 }
 

@@ -179,6 +179,7 @@ class Problem {
   std::vector<char> follows_wall_;  ///< [local node] wall nodes and their hosts
   std::vector<distributed::EdgeNode>
       edges_;  ///< those with nodes; in the lumen they move the mesh as the mean of their ends does
+  bool has_idle_pressures_ = false;  ///< on some rank
   assembly::BlockMatrix matrix_;
   assembly::Ties ties_;
   assembly::LinearSolver solver_;

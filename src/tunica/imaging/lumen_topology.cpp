@@ -77,6 +77,7 @@ class Settling {
     part_from_true();
     make_ball(false_, "false lumen", rings, log);
     one_contact_each(tears, log);
+    open_between(std::max<std::int64_t>(0, std::ssize(tears) - 1) + rings, log);
     fill_pits(log);
     take_fingers(log);
     write();
@@ -181,6 +182,14 @@ class Settling {
       if (!open[t])
         log(fmt::format("warning: the tear of {:.0f} mm^2 at {} was closed by the filter", 1e6 * tears[t].area,
                         in_mm(tears[t].centre)));
+  }
+
+  /// Where a tear holds specks of tissue, the lumens that touch around them make rings.
+  void open_between(std::int64_t rings, const Log& log) {
+    auto both = lumen();
+    make_ball(both, "lumen", rings, log);
+    for (std::size_t i = 0; i < both.size(); ++i)
+      if (!both[i]) true_[i] = false_[i] = 0;
   }
 
   std::size_t nearest_tear(const std::vector<Contact>& tears, const std::vector<std::int64_t>& part) const {

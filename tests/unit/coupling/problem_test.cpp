@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -105,6 +106,42 @@ TEST_P(ProblemOfElements, StepIsTheSameOnAnyNumberOfRanks) {
   EXPECT_LE(test::difference(parts, a.displacement, whole, b.displacement, 0, 3), 1e-6);
   EXPECT_LE(test::difference(parts, a.displacement_rate, whole, b.displacement_rate, 0, 3), 1e-6);
   EXPECT_NEAR(a.outlets[0].flow(), b.outlets[0].flow(), 1e-6 * std::abs(b.outlets[0].flow()));
+}
+
+// All velocities of such a tetrahedron are prescribed, so that no equation has the pressure of its tip.
+TEST(Problem, PressureOfATipBetweenRigidWallsIsThatBesideIt) {
+  auto data = test::fluid_tube();
+  const auto wall =
+      std::find_if(data.faces.begin(), data.faces.end(), [](const auto& f) { return f.name == "lumen_wall"; });
+  ASSERT_NE(wall, data.faces.end());
+  const auto [a, b, c] = wall->triangles[wall->triangles.size() / 2];
+  const auto tip = std::ssize(data.points);
+  const auto normal = cross(data.points[b] - data.points[a], data.points[c] - data.points[a]);
+  const Vec3<double> middle = (1.0 / 3) * (data.points[a] + data.points[b] + data.points[c]);
+  data.points.push_back(middle + (1e-3 / norm(normal)) * normal);
+  data.tetrahedra.push_back({a, b, c, tip});
+  data.regions.back().end_element += 1;
+  wall->triangles.erase(wall->triangles.begin() + std::ssize(wall->triangles) / 2);
+  for (const auto& [i, j] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) wall->triangles.push_back({i, j, tip});
+  mesh::add_edge_nodes(data);
+  const auto mesh = distributed::distribute(data, MPI_COMM_WORLD);
+  Problem problem(mesh, exact_flow_input());
+  auto state = problem.initial_state();
+  for (int step = 0; step < 2; ++step) {
+    const auto report = problem.advance(state, time_step);
+    ASSERT_TRUE(report.converged) << report.failure;
+  }
+  std::int64_t tips = 0;
+  for (const auto& element : mesh.regions[0].elements)
+    for (const auto node : element) {
+      if (node >= mesh.owned_nodes || norm(mesh.points[node] - data.points[tip]) > 1e-9) continue;
+      ++tips;
+      double mean = 0;
+      for (const auto other : element) mean += other == node ? 0 : state.velocity_pressure[at(other) + 3] / 3;
+      EXPECT_NEAR(state.velocity_pressure[at(node) + 3], mean, 1e-12 * std::abs(mean));
+      EXPECT_GT(std::abs(mean), 10.0);
+    }
+  EXPECT_EQ(parallel::global_sum(mesh.comm, tips), 1);
 }
 
 TEST(Problem, TwinsMoveWithTheirHostsAndTheInterfaceWithTheFlow) {
