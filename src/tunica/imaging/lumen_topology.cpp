@@ -77,7 +77,7 @@ class Settling {
     part_from_true();
     make_ball(false_, "false lumen", rings, log);
     one_contact_each(tears, log);
-    open_between(std::max<std::int64_t>(0, std::ssize(tears) - 1) + rings, log);
+    if (!tears.empty()) open_between(std::ssize(tears) - 1 + rings, log);
     fill_pits(log);
     take_fingers(log);
     write();
