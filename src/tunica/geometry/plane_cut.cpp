@@ -40,7 +40,8 @@ std::vector<bool> points_of_end(const TriangleSurface& surface, const std::vecto
     if (beyond[p]) continue;
     if (off_axis(p) > end.radius)
       throw SolverError("the vessel end at " + list_places_mm({{end.centre}}) +
-                        " cannot be cut off: it touches another vessel near " + list_places_mm({{surface.points[p]}}));
+                        " cannot be cut off: its plane touches another vessel, or the blind end of one, near " +
+                        list_places_mm({{surface.points[p]}}) + "; give its opening a `normal`, or another centre");
     beyond[p] = true;
     for (const auto q : near[p])
       if (height[q] > 0 && !beyond[q]) stack.push_back(q);

@@ -119,6 +119,12 @@ std::vector<VesselEnd> choose_ends(const LumenMask& mask, const SmoothField& fie
   std::vector<VesselEnd> ends;
   for (const auto& [name, opening] : openings) ends.push_back(given_end(name, opening, field, found, problems, log));
   if (problems.empty()) check_distinct(ends, settings, problems);
+  for (std::size_t i = 0; problems.empty() && i < ends.size(); ++i)
+    if (const double away = norm(ends[i].centre - openings[i].second.centre); away > ends[i].radius)
+      log(fmt::format(
+          "warning: opening {}: the vessel end nearest to its centre is {:.1f} mm away, more than its radius "
+          "of {:.1f} mm: if it is another one, give a `normal`, and the vessel is cut at the centre",
+          openings[i].first, 1e3 * away, 1e3 * ends[i].radius));
   if (!problems.empty()) throw InputError(std::move(problems));
   check_closed(ends, found, settings, log);
   return ends;

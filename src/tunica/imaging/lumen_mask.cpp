@@ -144,9 +144,17 @@ constexpr double largest_speck = 1e-6;  // m^3
 
 void check_pieces(const LumenMask& mask, const Pieces& pieces, std::size_t largest) {
   std::vector<Problem> problems;
+  const auto of_false = count_of(mask, Kind::false_lumen);
   for (std::size_t p = 1; p < pieces.first.size(); ++p) {
     const double volume = mask.frame.voxel_volume() * static_cast<double>(pieces.voxels[p]);
     if (p == largest || !mask.is_lumen(pieces.first[p]) || volume < largest_speck) continue;
+    if (mask.kinds[pieces.first[p]] == Kind::false_lumen && 2 * pieces.voxels[p] > of_false) {
+      problems.push_back({"false lumen",
+                          fmt::format("{:.1f} of its {:.1f} ml touch the true lumen nowhere: no tear joins the lumens",
+                                      ml(volume), ml(mask.frame.voxel_volume() * static_cast<double>(of_false))),
+                          "label the blood in the tears as lumen, so that the voxels of both lumens touch there"});
+      continue;
+    }
     problems.push_back({"image",
                         fmt::format("a piece of lumen of {:.1f} ml at {} is separate from the rest", ml(volume),
                                     in_mm(mask.frame.place(mask.frame.voxel(pieces.first[p])))),
@@ -187,15 +195,38 @@ void clean(LumenMask& mask, const Repairs& repairs, bool apart, const Log& log) 
   if (filled > 0) log(fmt::format("{} holes in the lumen filled, {:.3f} ml together", filled, ml(filled_volume)));
 }
 
+/// A false lumen is one: another large part of it is no speck that may become true lumen.
+void check_parts(const LumenMask& mask, VoxelSet others) {
+  keep_largest_part(mask.frame, others);
+  const auto count = std::count(others.begin(), others.end(), 1);
+  const double volume = mask.frame.voxel_volume() * static_cast<double>(count);
+  if (volume < largest_speck) return;
+  Point sum{{0, 0, 0}};
+  for (std::int64_t i = 0; i < std::ssize(others); ++i)
+    if (others[i]) sum = sum + mask.frame.place(mask.frame.voxel(i));
+  throw InputError(
+      "false lumen",
+      fmt::format("{:.1f} ml of it about {} hang together with the rest through the true lumen only: there "
+                  "are two false lumens, and one can be meshed",
+                  ml(volume), in_mm((1 / static_cast<double>(count)) * sum)),
+      "join its parts in the segmentation, give one of them the label of the true lumen, or count the "
+      "smaller one as true lumen by `repair: [pieces]`");
+}
+
 /// Parts of a lumen that hang on the rest only through the other lumen belong to that: specks of the wrong label, and
 /// branches of the false lumen that bear the label of all branches.
-void rename_parts(LumenMask& mask, const Log& log) {
+void rename_parts(LumenMask& mask, const Repairs& repairs, const Log& log) {
   for (const auto kind : {Kind::true_lumen, Kind::false_lumen}) {
     auto set = voxels_of(mask.kinds, kind);
     const auto all = set;
     const auto changed = keep_largest_part(mask.frame, set);
     if (changed == 0) continue;
     const bool to_false = kind == Kind::true_lumen;
+    if (!to_false && !repairs[Repair::pieces]) {
+      auto others = all;
+      for (std::size_t i = 0; i < set.size(); ++i) others[i] = all[i] && !set[i];
+      check_parts(mask, std::move(others));
+    }
     for (std::size_t i = 0; i < set.size(); ++i)
       if (all[i] && !set[i]) mask.kinds[i] = to_false ? Kind::false_lumen : Kind::true_lumen;
     log(fmt::format("{:.3f} ml of the {} lumen hang on the other lumen only, and count as {} lumen",
@@ -237,7 +268,7 @@ LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::in
   check_connected(mask, Kind::true_lumen, "true", true_before);
   if (labels.false_lumen) {
     check_connected(mask, Kind::false_lumen, "false", false_before);
-    rename_parts(mask, log);
+    rename_parts(mask, repairs, log);
   }
   return mask;
 }

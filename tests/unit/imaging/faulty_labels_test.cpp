@@ -60,6 +60,37 @@ TEST(FaultyLabels, WithoutAnyAreMeshed) {
   EXPECT_EQ(made.surface.tears.size(), 2U);
 }
 
+TEST(FaultyLabels, TwoFalseLumensAreAnErrorAndSoIsOneWithoutATear) {
+  const double scale = 2;  // so that each has more than 1 ml
+  auto steps = straight;
+  for (auto& step : steps) step = scale * step;
+  auto asked = settings();
+  for (auto& [name, opening] : asked.openings) opening.centre = scale * opening.centre;
+  const auto two = [&](const Point& p) {
+    const Point q = (1 / scale) * p;
+    return dissected_tube(q) == 2 && std::abs(q[2]) < 2 * mm ? 0 : dissected_tube(q);
+  };
+  const auto parted = make(image_of(two, image_size, steps), asked);
+  EXPECT_TRUE(contains(parted.error, "through the true lumen only: there are two false lumens")) << parted.log;
+  asked.repairs.asked[static_cast<std::size_t>(Repair::pieces)] = true;
+  const auto counted = make(image_of(two, image_size, steps), asked);
+  EXPECT_TRUE(contains(counted.log, "of the false lumen hang on the other lumen only")) << counted.log << counted.error;
+  asked.repairs = {};
+  const auto closed = [&](const Point& p) {
+    const Point q = (1 / scale) * p;
+    return std::abs(q[0]) < 1.05 * mm && std::abs(q[2]) < 14 * mm ? 0 : dissected_tube(q);
+  };
+  EXPECT_TRUE(contains(make(image_of(closed, image_size, steps), asked).error, "no tear joins the lumens"));
+}
+
+TEST(FaultyLabels, AnEndThatIsFarFromItsOpeningIsWarnedOf) {
+  auto asked = settings();
+  asked.openings[1].second.centre = {{0, 0, 31 * mm}};
+  const auto made = make(image_of(dissected_tube, image_size, straight), asked);
+  EXPECT_TRUE(contains(made.log, "warning: opening outlet: the vessel end nearest to its centre is 10.7 mm away"))
+      << made.log << made.error;
+}
+
 TEST(FaultyLabels, ASmallHoleInTheFlapIsClosedAndListed) {
   const auto image = image_of(
       [](const Point& p) {
