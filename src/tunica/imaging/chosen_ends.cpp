@@ -67,6 +67,19 @@ void check_distinct(const std::vector<VesselEnd>& ends, const SurfaceSettings& s
                             "is at the same end as " + settings.openings[j].first, "correct one of the centres"});
 }
 
+/// Where no normal is given, the end that was found may be another one.
+void warn_of_far(const std::vector<VesselEnd>& ends, const SurfaceSettings& settings, const Log& log) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto& [name, opening] = settings.openings[i];
+    const double away = norm(ends[i].centre - opening.centre);
+    if (!opening.normal && away > ends[i].radius)
+      log(fmt::format(
+          "warning: opening {}: the vessel end nearest to its centre is {:.1f} mm away, more than its radius "
+          "of {:.1f} mm: if it is another one, give a `normal`, and the vessel is cut at the centre",
+          name, 1e3 * away, 1e3 * ends[i].radius));
+  }
+}
+
 /// Every end that stays closed is said; the end of the aorta must not be one of them.
 void check_closed(const std::vector<VesselEnd>& ends, const VesselEnds& found, const SurfaceSettings& settings,
                   const Log& log) {
@@ -119,13 +132,8 @@ std::vector<VesselEnd> choose_ends(const LumenMask& mask, const SmoothField& fie
   std::vector<VesselEnd> ends;
   for (const auto& [name, opening] : openings) ends.push_back(given_end(name, opening, field, found, problems, log));
   if (problems.empty()) check_distinct(ends, settings, problems);
-  for (std::size_t i = 0; problems.empty() && i < ends.size(); ++i)
-    if (const double away = norm(ends[i].centre - openings[i].second.centre); away > ends[i].radius)
-      log(fmt::format(
-          "warning: opening {}: the vessel end nearest to its centre is {:.1f} mm away, more than its radius "
-          "of {:.1f} mm: if it is another one, give a `normal`, and the vessel is cut at the centre",
-          openings[i].first, 1e3 * away, 1e3 * ends[i].radius));
   if (!problems.empty()) throw InputError(std::move(problems));
+  warn_of_far(ends, settings, log);
   check_closed(ends, found, settings, log);
   return ends;
 }

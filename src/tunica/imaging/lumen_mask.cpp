@@ -198,17 +198,16 @@ void clean(LumenMask& mask, const Repairs& repairs, bool apart, const Log& log) 
 /// A false lumen is one: another large part of it is no speck that may become true lumen.
 void check_parts(const LumenMask& mask, VoxelSet others) {
   keep_largest_part(mask.frame, others);
-  const auto count = std::count(others.begin(), others.end(), 1);
-  const double volume = mask.frame.voxel_volume() * static_cast<double>(count);
-  if (volume < largest_speck) return;
-  Point sum{{0, 0, 0}};
+  std::vector<std::int64_t> voxels;
   for (std::int64_t i = 0; i < std::ssize(others); ++i)
-    if (others[i]) sum = sum + mask.frame.place(mask.frame.voxel(i));
+    if (others[i]) voxels.push_back(i);
+  const double volume = mask.frame.voxel_volume() * static_cast<double>(voxels.size());
+  if (volume < largest_speck) return;
   throw InputError(
       "false lumen",
       fmt::format("{:.1f} ml of it about {} hang together with the rest through the true lumen only: there "
                   "are two false lumens, and one can be meshed",
-                  ml(volume), in_mm((1 / static_cast<double>(count)) * sum)),
+                  ml(volume), in_mm(middle_of(mask.frame, voxels))),
       "join its parts in the segmentation, give one of them the label of the true lumen, or count the "
       "smaller one as true lumen by `repair: [pieces]`");
 }
@@ -256,6 +255,12 @@ VoxelSet voxels_of(const std::vector<Kind>& kinds, Kind kind) {
 
 std::string in_mm(const Point& p) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]);
+}
+
+Point middle_of(const ImageFrame& frame, const std::vector<std::int64_t>& voxels) {
+  Point sum{{0, 0, 0}};
+  for (const auto i : voxels) sum = sum + frame.place(frame.voxel(i));
+  return (1 / static_cast<double>(voxels.size())) * sum;
 }
 
 LumenMask lumen_mask(const LabelImage& image, const LumenLabels& labels, std::int64_t margin, const Log& log,

@@ -51,6 +51,9 @@ using Log = std::function<void(const std::string&)>;
 /// "(x, y, z) mm" of one place.
 std::string in_mm(const Point& place);
 
+/// Of these voxels, at least one [m].
+Point middle_of(const ImageFrame& frame, const std::vector<std::int64_t>& voxels);
+
 /// The lumen of an image: its largest connected piece, holes filled, with tissue around it for `margin` voxels of their
 /// shortest side. The log gets what each label becomes, and what was dropped and filled. `apart`: whether the lumens
 /// may be two pieces, with no tear between them. InputError for labels that are not in the image or not known, for

@@ -23,12 +23,6 @@ std::vector<float> depth_in(const ImageFrame& frame, const VoxelSet& set) {
   return depth;
 }
 
-Point middle_of(const ImageFrame& frame, const std::vector<std::int64_t>& voxels) {
-  Point sum{{0, 0, 0}};
-  for (const auto i : voxels) sum = sum + frame.place(frame.voxel(i));
-  return (1 / static_cast<double>(voxels.size())) * sum;
-}
-
 /// Of a layer of voxels, one thick [m^2].
 double area_of(const ImageFrame& frame, const std::vector<std::int64_t>& voxels) {
   return frame.voxel_volume() / frame.largest_spacing() * static_cast<double>(voxels.size());
