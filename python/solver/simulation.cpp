@@ -211,6 +211,25 @@ py::array field(const py::object& self, const std::string& name) {
                    "name one of: velocity, pressure, end_pressure, displacement, acceleration");
 }
 
+/// A copy: (entries, columns), or (entries,) of a single column. Collective.
+py::array quantity(const Simulation& simulation, const std::string& key, const std::string& region) {
+  auto table = [&] {
+    const py::gil_scoped_release released;
+    return simulation.run().quantity(key, region);
+  }();
+  const auto rows = static_cast<py::ssize_t>(table.columns > 0 ? table.values.size() / table.columns : 0),
+             columns = static_cast<py::ssize_t>(table.columns);
+  if (columns == 1) return py::array_t<double>(rows, table.values.data());
+  return py::array_t<double>({rows, columns}, table.values.data());
+}
+
+/// What there is to ask for: key, name in results, help, components.
+py::list all_quantities() {
+  py::list all;
+  for (const auto& q : quantities::registry()) all.append(py::make_tuple(q.key, q.name, q.help, q.components));
+  return all;
+}
+
 py::array points(const py::object& self) {
   return rows<double>(self.cast<const Simulation&>().run().mesh().points, self);
 }
@@ -281,6 +300,7 @@ py::list regions(const Simulation& simulation) {
 }  // namespace
 
 void bind_simulation(py::module_& m) {
+  m.def("quantities", all_quantities);
   py::class_<Simulation>(m, "Simulation")
       .def(py::init<const std::string&, const fs::path&, const py::object&, const std::optional<fs::path>&, bool,
                     const std::optional<fs::path>&, bool, const std::optional<std::int64_t>&, const Functions&, bool>())
@@ -289,6 +309,7 @@ void bind_simulation(py::module_& m) {
       .def("checkpoint", &Simulation::checkpoint)
       .def("values", step_values)
       .def("field", field)
+      .def("quantity", quantity)
       .def("elements", elements)
       .def("outlet", outlet)
       .def("set_outlet", set_outlet)

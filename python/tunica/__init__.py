@@ -24,6 +24,7 @@ _solver_names = {
     "material_axes": "meshes",
     "Simulation": "simulation",
     "Step": "simulation",
+    "quantities": "simulation",
     "CycleQuantities": "stages",
     "Outlets": "stages",
     "Prestress": "stages",

@@ -12,6 +12,7 @@ from .results import Pipeline as Pipeline
 from .results import Results as Results
 from .simulation import Simulation as Simulation
 from .simulation import Step as Step
+from .simulation import quantities as quantities
 from .stages import CycleQuantities as CycleQuantities
 from .stages import Outlets as Outlets
 from .stages import Prestress as Prestress

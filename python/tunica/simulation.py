@@ -22,7 +22,7 @@ from . import _core, _solver
 from .cases import as_case
 from .results import open_results
 
-__all__ = ["Simulation", "Step"]
+__all__ = ["Simulation", "Step", "quantities"]
 
 _UNITS = {"proximal": "Pa s/m^3", "distal": "Pa s/m^3", "resistance": "Pa s/m^3", "capacitance": "m^3/Pa",
           "distal_pressure": "Pa"}
@@ -46,6 +46,16 @@ class Step:
 
     def __repr__(self):
         return f"<step {self.number}: t = {self.time:.6g} s, {self.newton_iterations} iterations>"
+
+
+def quantities():
+    """What results can have and Simulation.quantity() gives: dict of a line of text by key.
+
+    >>> import tunica
+    >>> tunica.quantities()["vorticity"]
+    'curl of the velocity of the blood: mean over the elements at a node'
+    """
+    return {key: text for key, _, text, _ in _solver.quantities()}
 
 
 class _Outlets:
@@ -251,6 +261,22 @@ class Simulation:
     def regions(self):
         """Names of the regions."""
         return self._core.regions
+
+    def quantity(self, key, region=None):
+        """A quantity of the last step, of those that ``output: {fields}`` of a case can name (tunica.quantities()), in SI
+        units: (nodes,) or (nodes, components) at the nodes of this process, (elements,) or (elements, components) in the
+        elements of a region of the wall; where it has a value for each family of fibres, a column for each. ``region``: a
+        name, the first that has this quantity when left out. With several processes all call it.
+        """
+        if region is not None:
+            return self._core.quantity(key, region)
+        refused = None
+        for name in self.regions:
+            try:
+                return self._core.quantity(key, name)
+            except _core.InputError as error:
+                refused = error
+        raise refused
 
     def elements(self, region):
         """(m, 4): corners of the tetrahedra of a region that this process counts."""

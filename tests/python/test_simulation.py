@@ -168,6 +168,12 @@ class Simulations(InAFolder):
             velocity[0, 0] = 1
         self.assertEqual(simulation.elements("lumen").shape[1], 4)
         self.assertLess(simulation.elements("lumen").max(), len(velocity))
+        gradient = simulation.quantity("velocity_gradient")
+        self.assertEqual(gradient.shape, (len(velocity), 9))
+        np.testing.assert_allclose(simulation.quantity("vorticity", "lumen")[:, 2], gradient[:, 3] - gradient[:, 1])
+        for key, region in (("vortex", None), ("jacobian", None), ("vorticity", "wall")):
+            with self.assertRaises(tunica.InputError):
+                simulation.quantity(key, region)
         with self.assertRaises(tunica.InputError):
             simulation.elements("wall")
         results = simulation.finish()

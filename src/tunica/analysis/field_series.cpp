@@ -108,7 +108,7 @@ struct FieldSeries::Implementation {
     if (data.regions[region].kind != RegionKind::wall) return;
     for (const auto& array : file.cell_arrays()) {
       const auto name = name_and_unit(array.name).first;
-      if (name.find("stress") != std::string::npos &&
+      if (array.components == 1 && name.find("stress") != std::string::npos &&
           std::find(stresses.begin(), stresses.end(), name) == stresses.end())
         stresses.push_back(name);
     }

@@ -112,6 +112,23 @@ void check_chain(const Case& c, Problems& problems) {
   if (c.start) problems.add("start", "is given, and the section `prestress` too", remedy);
 }
 
+/// Fields that `post` and the report read and the series will not have.
+void check_fields(const Case& c, Problems& problems) {
+  if (!c.post && !c.report) return;
+  std::string missing;
+  const auto& all = quantities::registry();
+  const auto need = [&](std::string_view key) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].key == key && !c.output.fields[i]) missing += fmt::format("{}{}", missing.empty() ? "" : ", ", key);
+  };
+  if (c.solves_fluid())
+    for (const auto* key : {"velocity", "pressure", "wall_shear_stress"}) need(key);
+  if (c.solves_wall()) need("displacement");
+  if (!missing.empty())
+    problems.add("output.fields", fmt::format("leaves out what `{}` reads: {}", c.post ? "post" : "report", missing),
+                 "add them, or leave out `fields`: all that `post` reads is written then");
+}
+
 void check_case(const Case& c, Problems& problems) {
   const bool coupled = c.solves_fluid() && c.solves_wall(),
              static_wall = std::holds_alternative<StaticWall>(c.analysis);
@@ -160,6 +177,7 @@ void check_case(const Case& c, Problems& problems) {
                    "moves the face, and the section `prestress` looks for a wall that nothing moves",
                    "hold the face by `fixed`, or remove `prestress`");
   if (c.boundary.empty()) problems.add("boundary", "names no face", "give every face of the mesh a condition");
+  check_fields(c, problems);
 }
 
 /// A run can only become periodic when a cycle holds whole periods of everything that drives it.
@@ -275,6 +293,11 @@ Schema<OutputSettings> OutputSettings::schema() {
       .by_default()
       .flag("forces", &OutputSettings::forces,
             "Record the force of the blood on each face that it sticks to in forces.csv")
+      .by_default()
+      .any_of(
+          "fields", &OutputSettings::fields, quantities::keys(),
+          "Fields of the time series; `post`, and with it `report`, needs the standard ones of the blood, and of the "
+          "wall displacement. docs/results.md tells what they are")
       .by_default()
       .choice("instant", &OutputSettings::instant, {{"balance", Instant::balance}, {"end", Instant::end}},
               "Instant of pressures and stresses, and of faces.csv: `balance` within the step, where the equations are "

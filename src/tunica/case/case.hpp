@@ -26,6 +26,7 @@
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
+#include "tunica/quantities/quantity.hpp"
 
 namespace tunica::wall {
 struct Parameters;  // wall/parameters.hpp
@@ -135,6 +136,7 @@ struct OutputSettings {
   OutputUnits units;
   std::vector<std::pair<std::string, ProbePoint>> points;  ///< name, place
   bool forces = false;                                     ///< of the blood on the walls
+  std::vector<bool> fields = quantities::standard();       ///< which of quantities::registry() the series have
   Instant instant = Instant::balance;                      ///< of pressures, and of the flows through faces
   static config::Schema<OutputSettings> schema();
 };

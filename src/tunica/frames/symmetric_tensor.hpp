@@ -18,13 +18,13 @@ inline SymmetricTensor dyad(const Vec3<double>& v, double factor) {
           factor * v[0] * v[1], factor * v[1] * v[2], factor * v[0] * v[2]};
 }
 
-struct Principal {
-  Vec3<double> direction;  ///< unit, of the largest eigenvalue; its sign has no meaning
-  double largest, second;  ///< eigenvalues
+struct PrincipalAxes {
+  Vec3<double> values;      ///< eigenvalues, largest first
+  Mat3<double> directions;  ///< rows: unit vectors, in this order; their signs have no meaning
 };
 
 /// By Jacobi's rotations: exact for any symmetric tensor, multiple eigenvalues included.
-inline Principal principal(const SymmetricTensor& s) {
+inline PrincipalAxes principal_axes(const SymmetricTensor& s) {
   double a[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double size = std::abs(s[0]) + std::abs(s[1]) + std::abs(s[2]);
@@ -38,11 +38,25 @@ inline Principal principal(const SymmetricTensor& s) {
       for (int k = 0; k < 3; ++k) a[p][k] = c * a[p][k] - d * std::exchange(a[q][k], d * a[p][k] + c * a[q][k]);
       for (auto& row : v) row[p] = c * row[p] - d * std::exchange(row[q], d * row[p] + c * row[q]);
     }
-  int first = 0;
-  for (int i = 1; i < 3; ++i)
-    if (a[i][i] > a[first][first]) first = i;
-  const int b = (first + 1) % 3, c = (first + 2) % 3;
-  return {{{v[0][first], v[1][first], v[2][first]}}, a[first][first], std::max(a[b][b], a[c][c])};
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return a[i][i] > a[j][j]; });
+  PrincipalAxes result;
+  for (int i = 0; i < 3; ++i) {
+    result.values[i] = a[order[i]][order[i]];
+    for (int k = 0; k < 3; ++k) result.directions(i, k) = v[k][order[i]];
+  }
+  return result;
+}
+
+struct Principal {
+  Vec3<double> direction;  ///< unit, of the largest eigenvalue; its sign has no meaning
+  double largest, second;  ///< eigenvalues
+};
+
+inline Principal principal(const SymmetricTensor& s) {
+  const auto axes = principal_axes(s);
+  const auto& d = axes.directions;
+  return {{{d(0, 0), d(0, 1), d(0, 2)}}, axes.values[0], axes.values[1]};
 }
 
 }  // namespace tunica::frames

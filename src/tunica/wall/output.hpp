@@ -103,10 +103,10 @@ TUNICA_INLINE Symmetric<T> prestress_cauchy_stress(const ElementState<T>& e, con
   return detail::push_forward(F, S0, determinant(F));
 }
 
-/// Cauchy stress along a fibre, m.sigma.m [Pa]: m is the direction M that the fibre has in the axes of the element's
-/// gradients, carried along by its motion.
-inline double fibre_stress(const ElementState<double>& e, const Symmetric<double>& sigma, const Vec3<double>& M) {
-  const Vec3<double> m = deformation_gradient(e) * M;
+/// Cauchy stress along a fibre, m.sigma.m [Pa]: m is the direction M that the fibre has in the axes of the material,
+/// carried along by the deformation gradient F.
+inline double fibre_stress(const Mat3<double>& F, const Symmetric<double>& sigma, const Vec3<double>& M) {
+  const Vec3<double> m = F * M;
   return dot(m, full(sigma) * m) / dot(m, m);
 }
 

@@ -153,6 +153,23 @@ TEST(Case, OutputUnitsAreChecked) {
       mentions(problems_of(coupled() + "output: {units: {stress: mm}}"), "output.units.stress", "unit of a length"));
 }
 
+TEST(Case, FieldsAreChosenByName) {
+  const auto chosen = [](const std::string& output) {
+    const auto c = parse_case(coupled() + "output: {" + output + "}", "c");
+    std::string keys;
+    for (std::size_t i = 0; i < c.output.fields.size(); ++i)
+      if (c.output.fields[i]) keys += quantities::keys()[i] + " ";
+    return keys;
+  };
+  EXPECT_EQ(chosen("fields: [vorticity, velocity]"), "velocity vorticity ");
+  EXPECT_EQ(chosen("every: 1"),
+            "velocity displacement pressure wall_shear_stress wall_pressure von_mises_stress first_principal_stress "
+            "fibre_stress ");
+  EXPECT_TRUE(mentions(problems_of(coupled() + "output: {fields: [vorticty]}"), "output.fields", "is not one of"));
+  EXPECT_TRUE(mentions(problems_of(coupled() + "post: {}\noutput: {fields: [velocity, displacement, vorticity]}"),
+                       "output.fields", "`post` reads: pressure, wall_shear_stress"));
+}
+
 TEST(Case, SlipsOfTheUnitAreWarnings) {
   const Folder folder;
   std::string yaml = coupled();

@@ -93,8 +93,8 @@ TEST(WallOutput, StressAlongFibresFollowsTheirMotion) {
   for (int a = 0; a < 4; ++a) e.displacement[a] = {{2 * X[a][1], 0, 0}};
   const Symmetric<double> sigma{{5, 7, 0, 1, 0, 0}};  // 11, 22, 33, 12
   // The second axis is -x, which the shear leaves alone; the first is y, which becomes (2, 1, 0).
-  EXPECT_NEAR(fibre_stress(e, sigma, {{0, 1, 0}}), 5, 1e-14);
-  EXPECT_NEAR(fibre_stress(e, sigma, {{1, 0, 0}}), (4 * 5 + 7 + 2 * 2 * 1) / 5.0, 1e-14);
+  EXPECT_NEAR(fibre_stress(deformation_gradient(e), sigma, {{0, 1, 0}}), 5, 1e-14);
+  EXPECT_NEAR(fibre_stress(deformation_gradient(e), sigma, {{1, 0, 0}}), (4 * 5 + 7 + 2 * 2 * 1) / 5.0, 1e-14);
 }
 
 TEST(WallOutput, MeanDirectionsOfTheFamiliesOfALaw) {

@@ -78,6 +78,7 @@ void check_support(const case_file::Case& wall, const std::vector<std::string>& 
 case_file::Case wall_case(const case_file::Case& c, const std::vector<std::string>& wall_faces) {
   case_file::Case wall = c;
   wall.analysis = case_file::StaticWall{};
+  wall.output.fields = quantities::standard();
   wall.fluid.reset();
   wall.mesh_motion.reset();
   wall.meshes.interface.reset();
@@ -184,7 +185,9 @@ void PrestressRun::take_steps_of_flow(coupling::Problem& problem) {
 }
 
 void PrestressRun::write_flow(const coupling::Problem& problem, const case_file::Case& flow) {
-  artifacts::OutputFields fields(problem, flow);
+  auto standard = flow;
+  standard.output.fields = quantities::standard();
+  artifacts::OutputFields fields(problem, standard);
   distributed::ResultsWriter writer(lumen_, results_in("flow"));
   fields.write(writer, steady_.step, steady_.time, flow_);
 }

@@ -38,6 +38,9 @@ class Run {
   const artifacts::StepHistory& last() const { return last_; }
   const coupling::State& state() const { return state_; }
   const distributed::DistributedMesh& mesh() const { return mesh_; }
+  quantities::Table quantity(const std::string& key, const std::string& region) {
+    return fields_->table(key, region, state_);
+  }
   const std::filesystem::path& folder() const { return folder_; }
   const OutletModel& outlet(const std::string& face) const;
   void set_outlet(const std::string& face, const OutletModel& model);

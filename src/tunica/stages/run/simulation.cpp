@@ -59,6 +59,9 @@ double Simulation::time() const { return run_->time(); }
 const artifacts::StepHistory& Simulation::last() const { return run_->last(); }
 const coupling::State& Simulation::state() const { return run_->state(); }
 const distributed::DistributedMesh& Simulation::mesh() const { return run_->mesh(); }
+quantities::Table Simulation::quantity(const std::string& key, const std::string& region) {
+  return run_->quantity(key, region);
+}
 fs::path Simulation::folder() const { return run_->folder(); }
 OutletModel Simulation::outlet(const std::string& face) const { return run_->outlet(face); }
 void Simulation::set_outlet(const std::string& face, const OutletModel& model) { run_->set_outlet(face, model); }

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "tunica/artifacts/histories.hpp"
+#include "tunica/quantities/quantity.hpp"
 #include "tunica/stages/run_case.hpp"
 
 namespace tunica::stages {
@@ -52,6 +53,8 @@ class Simulation {
   /// Fields of the last step; they stay where they are in memory for as long as this lives.
   const coupling::State& state() const;
   const distributed::DistributedMesh& mesh() const;
+  /// A quantity of the last step in a region, by its key: artifacts::OutputFields::table. Collective.
+  quantities::Table quantity(const std::string& key, const std::string& region);
   std::filesystem::path folder() const;
 
   /// Parameters of the outlet on a face. Throws InputError for a face without one.
