@@ -65,3 +65,10 @@ Cflags: -I\${pcfiledir}/${pc_include} -std=c++20 -Wno-psabi -DFMT_SHARED
 Libs: -L\${pcfiledir}/.. -Wl,--copy-dt-needed-entries -Wl,--start-group${pc_rooms} -Wl,--end-group ${pc_files} -lceres -lglog
 ")
 install(FILES ${CMAKE_BINARY_DIR}/tunica.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# cpack -G TGZ: all of this as one archive, to be unpacked where Debian 12 has the libraries that `tunica --version` names.
+set(CPACK_PACKAGE_VENDOR "The tunica developers")
+set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
+set(CPACK_GENERATOR TGZ)
+set(CPACK_STRIP_FILES ON)
+include(CPack)

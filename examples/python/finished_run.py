@@ -8,7 +8,8 @@ import sys
 import numpy as np
 import tunica
 
-results = tunica.open(sys.argv[1] if len(sys.argv) > 1 else "out/own_inflow")
+given = [] if "ipykernel" in sys.modules else sys.argv[1:]  # a notebook has no command line
+results = tunica.open(given[0] if given else "out/own_inflow")
 run = results.run if isinstance(results, tunica.Pipeline) else results
 
 # %% Histories

@@ -3,7 +3,7 @@
 #   export PYTHONPATH=$PWD/build/release/python
 #   /usr/bin/python3 examples/python/own_inflow.py out/own_inflow
 #
-# The cells (# %%) run one by one in editors that know them, and as a notebook by jupytext.
+# The cells (# %%) run one by one in editors that know them; examples/notebooks has the same for Jupyter.
 
 # %% The case: what a case file says, as a dict of its sections
 import sys
@@ -11,8 +11,9 @@ import sys
 import numpy as np
 import tunica
 
-folder = sys.argv[1] if len(sys.argv) > 1 else "out/own_inflow"
-steps = int(sys.argv[2]) if len(sys.argv) > 2 else 200
+given = [] if "ipykernel" in sys.modules else sys.argv[1:]  # a notebook has no command line
+folder = given[0] if given else "out/own_inflow"
+steps = int(given[1]) if len(given) > 1 else 200
 
 case = tunica.Case(
     title="A tube with an inflow of its own",

@@ -12,9 +12,10 @@ import sys
 
 import tunica
 
-folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "out/tear_sizes")
-areas = [float(a) for a in (sys.argv[2] if len(sys.argv) > 2 else "80,150,228").split(",")]
-steps = int(sys.argv[3]) if len(sys.argv) > 3 else 40
+given = [] if "ipykernel" in sys.modules else sys.argv[1:]  # a notebook has no command line
+folder = pathlib.Path(given[0] if given else "out/tear_sizes")
+areas = [float(a) for a in (given[1] if len(given) > 1 else "80,150,228").split(",")]
+steps = int(given[2]) if len(given) > 2 else 40
 
 
 # %% The case of a mesh: steady flow between rigid walls, the same resistance at every outlet

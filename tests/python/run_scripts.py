@@ -1,25 +1,47 @@
-"""Runs the scripts of examples/python, shortened, as a user runs them: each after the one whose results it opens."""
+"""Runs the scripts of examples/python, shortened, as a user runs them: each after the one whose results it opens. With
+`--notebooks` the cells of examples/notebooks, one after the other in one process each, as Jupyter does."""
+import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
+NOTEBOOKS = sys.argv[2:] == ["--notebooks"]
+
+
+def code_of(notebook):
+    """What the cells of a notebook are, as one program."""
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+
+
+def command(name, arguments):
+    if NOTEBOOKS:
+        return [sys.executable, "-c", code_of(FOLDER / f"{name}.ipynb"), *arguments]
+    return [sys.executable, str(FOLDER / f"{name}.py"), *arguments]
 
 
 def main():
+    if NOTEBOOKS:
+        subprocess.run([sys.executable, str(FOLDER.parent.parent / "scripts" / "notebooks"), "--check"], check=True)
+    ran = set()
     with tempfile.TemporaryDirectory() as out:
-        for script, arguments, expected in (
-            ("own_inflow.py", [f"{out}/own", "40"], "completed"),
-            ("finished_run.py", [f"{out}/own"], "largest velocity"),
-            ("tear_sizes.py", [f"{out}/tears", "228", "2"], "pressure at the inlet"),
+        for name, arguments, expected in (
+            ("laws", [], "kPa around the vessel"),
+            ("own_inflow", [f"{out}/own", "40"], "completed"),
+            ("finished_run", [f"{out}/own"], "largest velocity"),
+            ("tear_sizes", [f"{out}/tears", "228", "2"], "pressure at the inlet"),
         ):
-            done = subprocess.run([sys.executable, str(FOLDER / script), *arguments], capture_output=True, text=True)
+            done = subprocess.run(command(name, arguments), capture_output=True, text=True,
+                                  env={**os.environ, "MPLBACKEND": "Agg"})
             if done.returncode or expected not in done.stdout:
-                print(script, done.returncode, done.stdout, done.stderr, sep="\n")
+                print(name, done.returncode, done.stdout, done.stderr, sep="\n")
                 return 1
-            print(f"{script}: {done.stdout.strip().splitlines()[-1]}")
-    left = {file.name for file in FOLDER.glob("*.py")} - {"own_inflow.py", "finished_run.py", "tear_sizes.py"}
+            print(f"{name}: {done.stdout.strip().splitlines()[-1]}")
+            ran.add(name)
+    left = {file.stem for file in FOLDER.glob("*.ipynb" if NOTEBOOKS else "*.py")} - ran
     if left:
         print("not run:", ", ".join(sorted(left)))
     return 1 if left else 0
