@@ -13,11 +13,14 @@ config::Schema<std::variant<P...>> laws_of(const std::variant<P...>*) {
   config::Schema<std::variant<P...>> s("material", "Wall law.");
   s.one_of();
   (s.alternative(P::schema()), ...);
-  return s.choice("aortic_tissue", config::emplace<DfdParameters>,
-                  {{"true_lumen_wall", aortic_tissue(AorticTissue::true_lumen_wall)},
-                   {"false_lumen_wall", aortic_tissue(AorticTissue::false_lumen_wall)},
-                   {"flap", aortic_tissue(AorticTissue::flap)}},
-                  "Dispersed fibres with parameters for a part of the dissected aorta, where none are measured");
+  return s.choice(
+      "aortic_tissue", config::emplace<DfdParameters>,
+      {{"true_lumen_wall", aortic_tissue(AorticTissue::true_lumen_wall)},
+       {"false_lumen_wall", aortic_tissue(AorticTissue::false_lumen_wall)},
+       {"flap", aortic_tissue(AorticTissue::flap)},
+       {"chronic_adventitia", aortic_tissue(AorticTissue::chronic_adventitia)}},
+      "Dispersed fibres with parameters for a part of the dissected aorta, where none are measured: moduli of "
+      "the healthy aorta, but for `chronic_adventitia`, which was measured in chronic dissection");
 }
 
 struct FittedFile {

@@ -47,6 +47,27 @@ TEST(AorticTissue, ModuliAtRestAreThoseOfTheAorta) {
   }
 }
 
+// Of chronic dissection, and what the parameters with the moduli of the healthy aorta have in its place.
+TEST(AorticTissue, ChronicAdventitiaIsAsMeasured) {
+  struct State {
+    std::array<double, 2> strain, stress;  ///< E11, E22; S11, S22 [kPa]
+  };
+  constexpr std::array<State, 3> measured{
+      {{{0.172, 0.203}, {81, 80}}, {{0.214, 0.066}, {77, 45}}, {{0.065, 0.248}, {43, 77}}}};
+  const Law chronic = aortic_tissue(AorticTissue::chronic_adventitia).law(),
+            healthy = aortic_tissue(AorticTissue::false_lumen_wall).law();
+  for (const auto& [strain, stress] : measured)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto at = [&](const Law& law) {
+        const auto S = sheet_stress(law, ConstantFrame{}.frame(), 1.0 + 2.0 * strain[0], 1.0 + 2.0 * strain[1], 0.0);
+        return 1e-3 * S.value()[static_cast<int>(i)];
+      };
+      EXPECT_NEAR(at(chronic), stress[i], 0.1 * stress[i]);
+      EXPECT_GT(at(healthy), 2.3 * stress[i]);
+      EXPECT_LT(at(healthy), 3.3 * stress[i]);
+    }
+}
+
 /// `aortic_tissue: flap` stands for what the reference says of it, written out.
 TEST(AorticTissue, CaseFilesNameThem) {
   const auto read = [](const std::string& yaml) {
