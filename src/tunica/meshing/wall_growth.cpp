@@ -235,6 +235,8 @@ config::Schema<GrowthSettings> GrowthSettings::schema() {
       .quantity("branches", &G::branches, config::dimension::length, config::range(0.3e-3, 6e-3),
                 "Thickness around branches, instead of the rule")
       .optional()
+      .section("thickness", &G::thickness, ThicknessField::schema(),
+               "Thickness as it was measured or painted, instead of all rules where there is one")
       .check([](const G& g, config::Problems& problems) {
         if (g.thinnest > g.thickest)
           problems.add("thinnest", "is larger than `thickest`", "swap them, or give the same thickness twice");

@@ -4,7 +4,9 @@
 // leave, and what lies between two lumens closer than their walls is solid: the flap.
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tunica/config/schema.hpp"
@@ -12,6 +14,23 @@
 #include "tunica/geometry/triangle_surface.hpp"
 
 namespace tunica::meshing {
+
+/// Wall thickness that was measured or painted: an array at the points of a surface that lies on the lumen.
+struct ThicknessField {
+  std::filesystem::path file;  ///< .vtp
+  std::string array;
+  double metres_per_unit = 0;   ///< of the coordinates
+  double metres_per_value = 0;  ///< of the values
+  double reach = 2e-3;          ///< how far from the lumen that surface may lie [m]
+
+  static config::Schema<ThicknessField> schema();
+};
+
+/// Puts the values of a field in the place of `thickness` at the points that have one: those within its reach of a
+/// triangle whose values are all numbers. Returns their number. Throws InputError for a file that does not read, has no
+/// such array or a value that no wall has, and where no point has one.
+std::size_t take_thickness(const ThicknessField& field, const std::vector<geometry::Point>& points,
+                           std::vector<double>& thickness);
 
 /// The thickness is proportional to the radius of the vessel between two bounds; equal bounds give a uniform wall.
 struct GrowthSettings {
@@ -22,6 +41,8 @@ struct GrowthSettings {
   double spacing = 0.6e-3;   ///< of the distance samples [m]; below the thickness
   /// Instead of that rule, in these regions of the wall [m].
   std::optional<double> true_lumen_wall, false_lumen_wall, branches;
+  /// Instead of both, where it was measured or painted.
+  std::optional<ThicknessField> thickness;
 
   static config::Schema<GrowthSettings> schema();
 };

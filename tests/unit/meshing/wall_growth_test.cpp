@@ -65,6 +65,47 @@ TEST(WallGrowth, ThicknessByRadius) {
   for (const auto t : thickness_by_radius(lumen, geometry::find_openings(lumen, nullptr, {}), s)) EXPECT_EQ(t, 2e-3);
 }
 
+// Painted on the upper half of a tube in another unit, nan below.
+TEST(WallGrowth, ThicknessAsGiven) {
+  const Folder folder;
+  const auto lumen = tube(5e-3, 20e-3, 48, 24);
+  auto painted = lumen;
+  std::vector<double> values;
+  for (auto& p : painted.points) {
+    values.push_back(p[2] > 10e-3 ? 100 * (1e-3 + 0.1 * (p[2] - 10e-3)) : std::nan(""));  // cm
+    p = 1e3 * p;
+  }
+  ThicknessField field{
+      .file = folder.path / "painted.vtp", .array = "thickness", .metres_per_unit = 1e-3, .metres_per_value = 1e-2};
+  geometry::write_surface(painted, field.file, {{"thickness", values}});
+  std::vector<double> thickness(lumen.points.size(), 1.5e-3);
+  const auto taken = take_thickness(field, lumen.points, thickness);
+  std::size_t above = 0;
+  for (std::size_t p = 0; p < thickness.size(); ++p) {
+    const double z = lumen.points[p][2];
+    EXPECT_NEAR(thickness[p], z > 10e-3 ? 1e-3 + 0.1 * (z - 10e-3) : 1.5e-3, 1e-8);
+    above += z > 10e-3 ? 1 : 0;
+  }
+  EXPECT_EQ(taken, above);
+
+  const auto refused = [&](const ThicknessField& wrong) {
+    return message_of<InputError>([&] { take_thickness(wrong, lumen.points, thickness); });
+  };
+  auto wrong = field;
+  wrong.metres_per_value = 1.0;
+  EXPECT_TRUE(says(refused(wrong), "no thickness of a wall")) << refused(wrong);
+  wrong = field;
+  wrong.array = "dicke";
+  EXPECT_TRUE(says(refused(wrong), "dicke"));
+  wrong = field;
+  wrong.reach = 1e-3;
+  for (auto& p : painted.points) p = p + geometry::Point{{50, 0, 0}};
+  geometry::write_surface(painted, field.file, {{"thickness", values}});
+  EXPECT_TRUE(says(refused(wrong), "no point of the lumen is within 1 mm")) << refused(wrong);
+  geometry::write_surface(painted, field.file, {}, {{"thickness", std::vector<double>(painted.triangles.size(), 0.1)}});
+  EXPECT_TRUE(says(refused(field), "thickness")) << "an array of triangles is none of points: " << refused(field);
+}
+
 TEST(CutEnd, LeavesAPlaneRim) {
   const auto surface =
       geometry::cut_end(tube(5e-3, 20e-3, 40, 21), {{{0, 0, 10e-3}}, {{0, 0.1, std::sqrt(0.99)}}, 6e-3});
