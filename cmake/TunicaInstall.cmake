@@ -61,7 +61,7 @@ file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/tunica.pc CONTENT
 Description: ${PROJECT_DESCRIPTION}
 Version: ${PROJECT_VERSION}
 Requires: PETSc ompi-cxx fmt yaml-cpp muparser expat zlib librsvg-2.0
-Cflags: -I\${pcfiledir}/${pc_include} -std=c++20 -Wno-psabi -DFMT_SHARED
+Cflags: -I\${pcfiledir}/${pc_include} -std=c++20 -DFMT_SHARED
 Libs: -L\${pcfiledir}/.. -Wl,--copy-dt-needed-entries -Wl,--start-group${pc_rooms} -Wl,--end-group ${pc_files} -lceres -lglog
 ")
 install(FILES ${CMAKE_BINARY_DIR}/tunica.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
