@@ -66,13 +66,15 @@ void check_aorta_ends(const ImageGeometry& geometry, const imaging::LabelSurface
 VesselRoles roles_of(const ImageGeometry& geometry) { return {geometry.surface.inlet, geometry.aorta_ends, {}, {}}; }
 
 ImageSurfaces surfaces_from_image(const ImageGeometry& geometry, const ComplexOptions& options, bool grow) {
-  const auto made = imaging::surface_of(imaging::read_label_image(geometry.file), geometry.surface, options.log);
+  const auto image = imaging::read_label_image(geometry.file);
+  const auto made = imaging::surface_of(image, geometry.surface, options.log);
   check_aorta_ends(geometry, made);
   std::vector<geometry::NamedPlace> names;
   for (const auto& [name, opening] : geometry.surface.openings) names.push_back({name, made.ends[names.size()].centre});
   auto growing = options;
   growing.lumen_parts = made.parts;
-  LabelledLumen labelled{made.lumen, made.of_false_lumen, made.tears};
+  LabelledLumen labelled{made.lumen, made.of_false_lumen, made.tears, made.with_thrombus,
+                         image.frame.largest_spacing()};
   if (!grow) return {{made.lumen, {}, names}, made.parts, std::move(labelled)};
   const auto* body = made.with_thrombus ? &*made.with_thrombus : nullptr;
   auto surfaces = with_grown_wall(made.lumen, names, geometry.wall, roles_of(geometry), growing, body);

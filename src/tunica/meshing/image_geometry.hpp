@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct LabelledLumen {
   geometry::TriangleSurface lumen{};           ///< as the labels give it
   std::vector<std::uint8_t> of_false_lumen{};  ///< is each point of it at the false lumen?
   std::vector<imaging::Contact> tears{};
+  std::optional<geometry::TriangleSurface> with_thrombus{};  ///< around lumen and thrombus, where there is some
+  double voxel = 0;                                          ///< longest side of one [m]
 };
 
 struct ImageSurfaces {

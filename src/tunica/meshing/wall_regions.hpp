@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "tunica/geometry/tetrahedra.hpp"
+#include "tunica/geometry/triangle_surface.hpp"
 
 namespace tunica::meshing {
 
-enum class WallRegion { true_lumen_wall, false_lumen_wall, flap, branches };
-inline constexpr std::array<const char*, 4> wall_region_names = {"true_lumen_wall", "false_lumen_wall", "flap",
-                                                                 "branches"};
+enum class WallRegion { true_lumen_wall, false_lumen_wall, flap, branches, thrombus };
+inline constexpr std::array<const char*, 5> wall_region_names = {"true_lumen_wall", "false_lumen_wall", "flap",
+                                                                 "branches", "thrombus"};
 
 struct WallRegions {
   std::vector<WallRegion> of_element;  ///< for wall elements; true_lumen_wall and meaningless for others
@@ -39,5 +40,12 @@ struct Cap {
 /// places far from the lumen.
 WallRegions find_wall_regions(const geometry::Tetrahedra& mesh, const std::vector<Cap>& caps,
                               const WallRegionOptions& options);
+
+/// Makes the wall elements inside `body` thrombus, whatever else they were found to be: the surface around lumen and
+/// thrombus together, open at the vessel ends, of an image with voxels [m] of that size. Elements count by their
+/// centroid; beside the lumen alone the two surfaces are the same but for what filters do, so it has to lie 0.3 voxels
+/// deep, and pieces below ten voxels are left as they are. Returns the volume of the thrombus [m^3].
+double mark_thrombus(const geometry::Tetrahedra& mesh, const geometry::TriangleSurface& body, double voxel,
+                     WallRegions& regions);
 
 }  // namespace tunica::meshing

@@ -1,5 +1,6 @@
 #include "tunica/meshing/wall_growth.hpp"
 
+#include "tunica/geometry/surface_file.hpp"
 #include "tunica/geometry/triangle_tree.hpp"
 #include "unit/geometry/small_surfaces.hpp"
 

@@ -122,7 +122,10 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   }
   phases.begin("regions and faces");
   const auto faces = meshing::sort_surface(mesh, openings);
-  const auto regions = meshing::wall_regions(mesh, faces, openings, geometry.roles);
+  auto regions = meshing::wall_regions(mesh, faces, openings, geometry.roles);
+  if (const auto& labelled = geometry.labelled; labelled.with_thrombus)
+    tell(fmt::format("thrombus: {:.2f} ml",
+                     1e6 * meshing::mark_thrombus(mesh, *labelled.with_thrombus, labelled.voxel, regions)));
   auto data = meshing::assemble(mesh, openings, faces, regions);
   phases.begin("report");
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);

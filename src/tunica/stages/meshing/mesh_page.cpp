@@ -17,8 +17,8 @@ namespace {
 
 constexpr drawing::Colour true_lumen{246, 200, 196}, false_lumen{196, 214, 240};
 /// In the order of `WallRegion`.
-constexpr std::array<drawing::Colour, 4> region_colours = {
-    {{192, 57, 43}, {41, 98, 155}, {46, 160, 67}, {222, 165, 50}}};
+constexpr std::array<drawing::Colour, meshing::wall_region_names.size()> region_colours = {
+    {{192, 57, 43}, {41, 98, 155}, {46, 160, 67}, {222, 165, 50}, {122, 79, 58}}};
 
 std::string hex(const drawing::Colour& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
 
