@@ -1,5 +1,5 @@
-"""Runs the scripts of examples/python, shortened, as a user runs them: each after the one whose results it opens. With
-`--notebooks` the cells of examples/notebooks, one after the other in one process each, as Jupyter does."""
+"""Runs the cells of examples/notebooks, shortened, one after the other as Jupyter does: each notebook after the one whose
+results it opens. They are made of the scripts in examples/python, and have to be the same still."""
 import json
 import os
 import pathlib
@@ -8,7 +8,6 @@ import sys
 import tempfile
 
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
-NOTEBOOKS = sys.argv[2:] == ["--notebooks"]
 
 
 def code_of(notebook):
@@ -17,15 +16,8 @@ def code_of(notebook):
     return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
 
 
-def command(name, arguments):
-    if NOTEBOOKS:
-        return [sys.executable, "-c", code_of(FOLDER / f"{name}.ipynb"), *arguments]
-    return [sys.executable, str(FOLDER / f"{name}.py"), *arguments]
-
-
 def main():
-    if NOTEBOOKS:
-        subprocess.run([sys.executable, str(FOLDER.parent.parent / "scripts" / "notebooks"), "--check"], check=True)
+    subprocess.run([sys.executable, str(FOLDER.parent.parent / "scripts" / "notebooks"), "--check"], check=True)
     ran = set()
     with tempfile.TemporaryDirectory() as out:
         for name, arguments, expected in (
@@ -34,14 +26,14 @@ def main():
             ("finished_run", [f"{out}/own"], "largest velocity"),
             ("tear_sizes", [f"{out}/tears", "228", "2"], "pressure at the inlet"),
         ):
-            done = subprocess.run(command(name, arguments), capture_output=True, text=True,
-                                  env={**os.environ, "MPLBACKEND": "Agg"})
+            done = subprocess.run([sys.executable, "-c", code_of(FOLDER / f"{name}.ipynb"), *arguments],
+                                  capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "Agg"})
             if done.returncode or expected not in done.stdout:
                 print(name, done.returncode, done.stdout, done.stderr, sep="\n")
                 return 1
             print(f"{name}: {done.stdout.strip().splitlines()[-1]}")
             ran.add(name)
-    left = {file.stem for file in FOLDER.glob("*.ipynb" if NOTEBOOKS else "*.py")} - ran
+    left = {file.stem for file in FOLDER.glob("*.ipynb")} - ran
     if left:
         print("not run:", ", ".join(sorted(left)))
     return 1 if left else 0
