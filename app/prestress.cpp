@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "version.hpp"
 
 namespace tunica::app {
@@ -35,6 +36,7 @@ void add_prestress(CLI::App& app) {
     if (given->count() > 0) request->directory = *directory;
     request->program = {version(), commit()};
     throw CLI::RuntimeError(in_session([&] {
+      const parallel::StopSignals signals;
       const int signal = stages::prestress(MPI_COMM_WORLD, *request, stdout);
       return signal == 0 ? 0 : 128 + signal;
     }));

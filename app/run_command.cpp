@@ -10,6 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/base/text.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/pipeline/chain.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "version.hpp"
@@ -18,6 +19,7 @@ namespace tunica::app {
 namespace {
 
 int run(const stages::RunRequest& request) {
+  const parallel::StopSignals signals;  // one that comes while the run is prepared ends it before the first step
   const stages::RunOutcome outcome = stages::run(MPI_COMM_WORLD, request, stdout);
   return outcome.signal == 0 ? 0 : 128 + outcome.signal;
 }

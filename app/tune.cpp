@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "version.hpp"
 
@@ -38,6 +39,7 @@ void add_tune(CLI::App& app) {
     request->program = {version(), commit()};
     request->run_case = stages::run_case;
     throw CLI::RuntimeError(in_session([&] {
+      const parallel::StopSignals signals;
       const int signal = stages::tune(MPI_COMM_WORLD, *request, stdout);
       return signal == 0 ? 0 : 128 + signal;
     }));

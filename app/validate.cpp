@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "session.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
 #include "tunica/stages/run/run.hpp"
 #include "version.hpp"
@@ -41,7 +42,10 @@ void add_validate(CLI::App& app) {
     }
     request->folder = *folder;
     request->elements = *elements == "linear" ? case_file::Elements::linear : case_file::Elements::quadratic;
-    request->run_case = stages::run_case;
+    request->run_case = [](const auto&... arguments) {
+      const parallel::StopSignals signals;
+      return stages::run_case(arguments...);
+    };
     request->program = {version(), commit()};
     request->make_mesh = [](const std::filesystem::path& file) {
       const auto parsed = case_file::read_mesh_case(file);

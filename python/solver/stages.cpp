@@ -8,6 +8,7 @@
 
 #include "session.hpp"
 #include "solver.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/stages/post/post.hpp"
 #include "tunica/stages/prestress/prestress.hpp"
 #include "tunica/stages/run/run.hpp"
@@ -27,6 +28,7 @@ int prestress(const std::string& yaml, const fs::path& file, const fs::path& fol
               const py::object& comm, bool verbose) {
   const OwnComm own(comm);
   const py::gil_scoped_release released;
+  const parallel::StopSignals signals;
   return stages::prestress(own,
                            {.case_file = file,
                             .case_text = yaml,
@@ -41,6 +43,7 @@ int tune(const std::string& yaml, const fs::path& file, const fs::path& folder, 
          bool verbose) {
   const OwnComm own(comm);
   const py::gil_scoped_release released;
+  const parallel::StopSignals signals;
   return stages::tune(own,
                       {.case_file = file,
                        .case_text = yaml,

@@ -38,7 +38,7 @@ std::string printable_names(const std::vector<field_io::ArrayHead>& arrays) {
   std::string names;
   for (const auto& array : arrays)
     names += (names.empty() ? "" : ", ") + text::printable(name_and_unit(array.name).first);
-  return names;
+  return names.empty() ? "none" : names;
 }
 
 }  // namespace
@@ -223,7 +223,8 @@ struct FieldSeries::Implementation {
       return;
     }
     throw InputError(path(region, frame).string(),
-                     fmt::format("has no field `{}`, only: {}", name, printable_names(file.point_arrays())), run_again);
+                     fmt::format("has no field `{}`, only: {}", name, printable_names(file.point_arrays())),
+                     "run the case again, with it among `output.fields`, or without that key");
   }
 
   void take_nodal(const field_io::FieldFile& file, std::size_t region, std::size_t frame, FieldFrame& into) const {

@@ -57,15 +57,30 @@ bool has(Place place, RegionKind kind) {
   return place == Place::nodes || (place == Place::lumen_nodes) == (kind == RegionKind::lumen);
 }
 
+/// Zero at nodes that are none of the region's: in one array of unknowns they have what other regions mean by it.
+void clear_elsewhere(const distributed::Region& region, const distributed::DistributedMesh& mesh,
+                     quantities::Table& table) {
+  std::vector<bool> here(static_cast<std::size_t>(mesh.nodes()), false);
+  for (const auto& element : region.elements)
+    for (const auto node : element) here[static_cast<std::size_t>(node)] = true;
+  for (const auto& edges : region.edges)
+    for (const auto node : edges) here[static_cast<std::size_t>(node)] = true;
+  for (std::size_t n = 0; n < here.size(); ++n)
+    if (!here[n])
+      std::fill_n(table.values.begin() + static_cast<std::ptrdiff_t>(n * table.columns), table.columns, 0.0);
+}
+
 }  // namespace
 
 OutputFields::OutputFields(const coupling::Problem& problem, const case_file::Case& c)
-    : problem_(problem), units_(c.output.units), at_end_(c.output.instant == case_file::Instant::end) {
+    : problem_(problem),
+      units_(c.output.units),
+      at_end_(c.output.instant == case_file::Instant::end),
+      moves_(!std::holds_alternative<case_file::StaticWall>(c.analysis)) {
   if (c.solves_fluid()) inside_ = quantities::inside_of(problem);
-  const bool moves = !std::holds_alternative<case_file::StaticWall>(c.analysis);
   const auto& all = quantities::registry();
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (c.output.fields[i] && (moves || !all[i].of_motion)) chosen_.push_back(&all[i]);
+    if (c.output.fields[i] && (moves_ || !all[i].of_motion)) chosen_.push_back(&all[i]);
 }
 
 template <class See>
@@ -93,14 +108,22 @@ quantities::Table OutputFields::table(const std::string& key, const std::string&
     for (const auto& r : regions) names.push_back(r.name);
     throw InputError("region " + region, "the mesh has no region of this name", one_of(names));
   }
-  if (!has(quantity->place, found->kind) || !quantity->given(problem_))
-    throw InputError("quantity " + key, fmt::format("region {} has none: {}", region, quantity->help),
-                     "name another region or quantity");
+  const auto none = [&] {
+    return InputError("quantity " + key, fmt::format("region {} has none: {}", region, quantity->help),
+                      "name another region or quantity");
+  };
+  if (!has(quantity->place, found->kind) || !quantity->given(problem_) || (quantity->of_motion && !moves_))
+    throw none();
   return at_instant(state, [&](const State& shown, const coupling::FieldsView& wall) {
     quantities::Moment moment(problem_, inside_, shown, wall);
     const auto r = static_cast<std::size_t>(found - regions.begin());
     const auto entries = quantity->place == Place::wall_elements ? found->owned_elements : problem_.mesh().nodes();
-    return quantities::table_of(quantity->values(moment, r), quantity->components, static_cast<std::size_t>(entries));
+    const auto arrays = quantity->values(moment, r);
+    if (arrays.empty()) throw none();
+    auto table = quantities::table_of(arrays, quantity->components, static_cast<std::size_t>(entries));
+    if (quantity->place == Place::lumen_nodes || quantity->place == Place::wall_nodes)
+      clear_elsewhere(*found, problem_.mesh(), table);
+    return table;
   });
 }
 

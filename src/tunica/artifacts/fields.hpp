@@ -36,7 +36,7 @@ class OutputFields {
 
   const coupling::Problem& problem_;
   case_file::OutputUnits units_;
-  bool at_end_ = false;
+  bool at_end_ = false, moves_ = true;
   std::vector<quantities::InsideTriangle> inside_;
   std::vector<const quantities::Quantity*> chosen_;
 };

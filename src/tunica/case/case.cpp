@@ -300,7 +300,7 @@ Schema<OutputSettings> OutputSettings::schema() {
           "wall displacement. docs/results.md tells what they are")
       .by_default()
       .choice("instant", &OutputSettings::instant, {{"balance", Instant::balance}, {"end", Instant::end}},
-              "Instant of pressures and stresses, and of faces.csv: `balance` within the step, where the equations are "
+              "Instant of pressures, of stresses and strains, and of faces.csv: `balance` within the step, where the equations are "
               "met; `end` the end of the step, as svMultiPhysics and svFSI write it")
       .by_default();
 }

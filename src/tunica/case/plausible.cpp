@@ -58,6 +58,29 @@ class Checker {
   explicit Checker(const Case& c) : case_(c) {}
   std::vector<Problem> warnings;
 
+  /// Fields that were chosen and that no results will have.
+  void fields() {
+    const auto& chosen = case_.output.fields;
+    if (chosen == quantities::standard()) return;
+    const auto& all = quantities::registry();
+    bool stress = false, any = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!chosen[i]) continue;
+      const std::string why = why_none(all[i]);
+      if (!why.empty())
+        warnings.push_back({"output.fields", fmt::format("`{}` is not written: {}", all[i].key, why), "leave it out"});
+      any = any || why.empty();
+      stress = stress || (all[i].place == quantities::Place::wall_elements && all[i].components == 1 &&
+                          all[i].unit == quantities::Unit::stress);
+    }
+    if (!any)
+      warnings.push_back({"output.fields", "names nothing that the case has: the series show meshes alone",
+                          "name some, or leave out `fields`"});
+    if (case_.post && case_.solves_wall() && !stress)
+      warnings.push_back({"output.fields", "names no stress of elements, so `post` and the report have none",
+                          "add `von_mises_stress` and `first_principal_stress`"});
+  }
+
   void tables() {
     for (const auto& [face, condition] : case_.boundary) {
       const std::string where = "boundary." + face;
@@ -112,6 +135,24 @@ class Checker {
   }
 
  private:
+  std::string why_none(const quantities::Quantity& quantity) const {
+    using quantities::Place;
+    const bool of_wall = quantity.place == Place::wall_nodes || quantity.place == Place::wall_elements ||
+                         quantity.unit == quantities::Unit::length;
+    if (quantity.place == Place::lumen_nodes && !case_.solves_fluid()) return "the analysis has no blood";
+    if (of_wall && !case_.solves_wall()) return "the analysis has no wall";
+    if (quantity.of_motion && std::holds_alternative<StaticWall>(case_.analysis)) return "nothing moves in statics";
+    if (quantity.key == "wall_pressure" && !case_.wall_has_pressure()) return "the displacement element has none";
+    if (quantity.key.starts_with("fibre_") && !has_fibres()) return "no law of the wall has fibres";
+    return "";
+  }
+
+  bool has_fibres() const {
+    if (!wall::mean_fibre_directions(case_.wall->material).empty()) return true;
+    return std::any_of(case_.wall->regions.begin(), case_.wall->regions.end(),
+                       [](const auto& region) { return !wall::mean_fibre_directions(region.second.material).empty(); });
+  }
+
   /// Was a resistance warned of as it was read?
   static bool is_unusual(double resistance) { return resistance > usual_resistance; }
 
@@ -297,6 +338,7 @@ std::vector<Problem> implausible_values(const Case& c) {
   if (c.solves_fluid()) checker.sign_of_inflow();
   if (!c.outlets) checker.outlets();
   if (c.solves_fluid()) checker.fineness();
+  checker.fields();
   return std::move(checker.warnings);
 }
 

@@ -68,8 +68,6 @@ struct ResultsWriter::Implementation {
                        .nodes = static_cast<std::size_t>(layout.nodes()),
                        .elements = static_cast<std::size_t>(layout.elements()),
                        .nodes_of_cell = mesh.quadratic ? 10 : 4,
-                       .points = {},
-                       .cells = {},
                        .series = {}});
     }
     const auto keeps = take_series();
@@ -98,11 +96,23 @@ struct ResultsWriter::Implementation {
         auto& series = index[r].series;
         series = field_io::read_series(series_path(index[r].name));
         std::erase_if(series, [&](const field_io::SeriesEntry& e) { return e.time > last; });
+        for (auto& entry : series) find_arrays(entry);
         keeps[r] = series.empty() ? 0 : 1;
       }
     });
     parallel::broadcast(mesh.comm, keeps);
     return keeps;
+  }
+
+  /// None of a file that is gone or damaged: who opens it is told so.
+  void find_arrays(field_io::SeriesEntry& entry) const {
+    try {
+      const field_io::FieldFile file(options.directory / entry.file);
+      entry.points = file.point_arrays();
+      entry.cells = file.cell_arrays();
+    } catch (const InputError&) {
+      entry.points.clear();
+    }
   }
 
   fs::path series_path(const std::string& region) const { return field_io::series_file(options.directory, region); }
@@ -136,11 +146,13 @@ struct ResultsWriter::Implementation {
   }
 
   // Only when all regions are written, so that their series stay equally long unless the very last renaming fails.
-  void write_lists(std::int64_t step, double time) {
-    for (auto& entry : index) {
+  void write_lists(std::int64_t step, double time, const std::vector<field_io::Instant>& instants) {
+    for (std::size_t r = 0; r < index.size(); ++r) {
+      auto& entry = index[r];
       auto longer = entry.series;
       std::erase_if(longer, [&](const field_io::SeriesEntry& e) { return e.time >= time; });
-      longer.push_back({time, field_io::instant_file(entry.name, step)});
+      longer.push_back(
+          {time, field_io::instant_file(entry.name, step), heads(instants[r].points), heads(instants[r].cells)});
       files::write_atomically(series_path(entry.name), field_io::series_text(longer));
       entry.series = std::move(longer);
     }
@@ -166,11 +178,7 @@ void ResultsWriter::write(std::int64_t step, double time, std::span<const NodalA
     assert(a.values.size() == static_cast<std::size_t>(self.mesh.regions[a.region].owned_elements) * a.components);
   const double clean = base::without_noise(time);
   std::vector<field_io::Instant> instants;
-  for (std::size_t r = 0; r < self.layouts.size(); ++r) {
-    instants.push_back(self.gather(r, clean, nodal, cells));
-    self.index[r].points = heads(instants[r].points);
-    self.index[r].cells = heads(instants[r].cells);
-  }
+  for (std::size_t r = 0; r < self.layouts.size(); ++r) instants.push_back(self.gather(r, clean, nodal, cells));
   const auto together = [&](const auto& action) {
     parallel::agree(self.mesh.comm, [&] {
       try {
@@ -185,7 +193,7 @@ void ResultsWriter::write(std::int64_t step, double time, std::span<const NodalA
       if (self.layouts[r].is_here()) self.write_instant(self.index[r].name, step, instants[r]);
   });
   together([&] {
-    if (parallel::rank(self.mesh.comm) == 0) self.write_lists(step, clean);
+    if (parallel::rank(self.mesh.comm) == 0) self.write_lists(step, clean, instants);
   });
 }
 

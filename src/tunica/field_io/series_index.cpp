@@ -40,7 +40,7 @@ std::string attribute(const ArrayHead& array, const char* centre, const char* gr
                      centre, item("Float", 4, dimensions, fmt::format("{}:/VTKHDF/{}/{}", file, group, array.name)));
 }
 
-std::string grid(const RegionIndex& r, const std::string& file) {
+std::string grid(const RegionIndex& r, const SeriesEntry& instant) {
   const auto corners = r.elements * static_cast<std::size_t>(r.nodes_of_cell);
   const std::string mesh = mesh_file(r.name);
   std::string text = fmt::format(
@@ -49,8 +49,8 @@ std::string grid(const RegionIndex& r, const std::string& file) {
       r.name, r.nodes_of_cell == 10 ? "Tetrahedron_10" : "Tetrahedron", r.elements,
       item("Int", 4, fmt::format("{}", corners), mesh + ":/VTKHDF/Connectivity"),
       item("Float", 4, fmt::format("{} 3", r.nodes), mesh + ":/VTKHDF/Points"));
-  for (const auto& a : r.points) text += attribute(a, "Node", "PointData", r.nodes, file);
-  for (const auto& a : r.cells) text += attribute(a, "Cell", "CellData", r.elements, file);
+  for (const auto& a : instant.points) text += attribute(a, "Node", "PointData", r.nodes, instant.file);
+  for (const auto& a : instant.cells) text += attribute(a, "Cell", "CellData", r.elements, instant.file);
   return text + "</Grid>\n";
 }
 
@@ -102,7 +102,7 @@ std::string overview_text(const std::vector<RegionIndex>& regions) {
     text += fmt::format(
         "<Grid Name=\"regions\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n", time);
     for (const auto& r : regions)
-      if (k < r.series.size() && r.series[k].time == time) text += grid(r, r.series[k].file);
+      if (k < r.series.size() && r.series[k].time == time) text += grid(r, r.series[k]);
     text += "</Grid>\n";
   }
   return text + "</Grid>\n</Domain>\n</Xdmf>\n";

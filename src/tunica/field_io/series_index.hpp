@@ -15,6 +15,9 @@ constexpr const char* overview_file = "results.xdmf";
 struct SeriesEntry {
   double time;       ///< s
   std::string file;  ///< in the folder of the series
+  /// What the file has, for the overview: runs that go on may have other fields than before. Not in the text of a
+  /// series.
+  std::vector<ArrayHead> points{}, cells{};
 };
 
 /// `<folder>/<region>.hdf.series`, a list in JSON that ParaView opens.
@@ -33,7 +36,6 @@ struct RegionIndex {
   std::string name;
   std::size_t nodes, elements;
   int nodes_of_cell;
-  std::vector<ArrayHead> points, cells;
   std::vector<SeriesEntry> series;
 };
 

@@ -62,6 +62,7 @@ void log_thickness(const std::vector<double>& thickness, const Log& log) {
 PatientSurfaces with_grown_wall(const geometry::TriangleSurface& lumen, const std::vector<geometry::NamedPlace>& names,
                                 const GrowthSettings& growth, const VesselRoles& roles, const ComplexOptions& options,
                                 const geometry::TriangleSurface* body) {
+  if (growth.thickness) check_thickness(*growth.thickness);
   PatientSurfaces surfaces{mended(lumen, "lumen surface", options.lumen_parts, options), {}, names};
   auto inner = body ? mended(*body, "surface of lumen and thrombus", 1, options) : surfaces.lumen;
   const auto openings = geometry::find_openings(inner, nullptr, names);

@@ -186,8 +186,7 @@ geometry::Tetrahedra tetrahedralise(const SurfaceComplex& complex,
   mesh.on_curve = on_rims(complex);
   fill(complex, Label::lumen, in_lumen, mesh);
   const auto has_wall = [](const Patch& patch) { return bounds(patch, Label::wall); };
-  if (std::any_of(complex.patches.begin(), complex.patches.end(), has_wall))
-    fill(complex, Label::wall, in_wall, mesh);
+  if (std::any_of(complex.patches.begin(), complex.patches.end(), has_wall)) fill(complex, Label::wall, in_wall, mesh);
   mesh.on_curve.resize(mesh.points.size(), false);
   return mesh;
 }

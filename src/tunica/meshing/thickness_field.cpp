@@ -55,6 +55,13 @@ config::Schema<ThicknessField> ThicknessField::schema() {
       .by_default();
 }
 
+void check_thickness(const ThicknessField& field) {
+  const auto values = values_of(field);
+  if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
+    throw InputError(field.file.string(), fmt::format("`{}` is nan at all points", field.array),
+                     "give the thickness where it was measured, or leave out `thickness`");
+}
+
 std::size_t take_thickness(const ThicknessField& field, const std::vector<geometry::Point>& points,
                            std::vector<double>& thickness) {
   const auto values = values_of(field);

@@ -26,6 +26,9 @@ struct ThicknessField {
   static config::Schema<ThicknessField> schema();
 };
 
+/// Reads a field and looks at its values, before any work. Throws InputError as take_thickness.
+void check_thickness(const ThicknessField& field);
+
 /// Puts the values of a field in the place of `thickness` at the points that have one: those within its reach of a
 /// triangle whose values are all numbers. Returns their number. Throws InputError for a file that does not read, has no
 /// such array or a value that no wall has, and where no point has one.

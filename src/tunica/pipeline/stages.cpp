@@ -11,6 +11,7 @@
 #include "tunica/meshing/assemble.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/patience.hpp"
+#include "tunica/parallel/signals.hpp"
 #include "tunica/pipeline/stage_documents.hpp"
 #include "tunica/stages/fibres/fibres.hpp"
 #include "tunica/stages/meshing/mesh_case.hpp"
@@ -88,6 +89,7 @@ int run_prestress(const StageCall& call) {
   request.keep_flow = on_all(call.comm, [&] { return call.resume && stages::has_flow(call.folder()); });
   request.overwrite = !request.keep_flow;
   request.verbose = call.verbose;
+  const parallel::StopSignals signals;
   return stages::prestress(call.comm, request, call.screen);
 }
 
@@ -98,6 +100,7 @@ int run_outlets(const StageCall& call) {
   request.program = call.program;
   request.run_case = stages::run_case;
   request.verbose = call.verbose;
+  const parallel::StopSignals signals;
   return stages::tune(call.comm, request, call.screen);
 }
 
@@ -124,6 +127,7 @@ int run_case_stage(const StageCall& call) {
     return found.possible;
   });
   request.overwrite = !request.restart;
+  const parallel::StopSignals signals;
   return stages::run(call.comm, request, call.screen).signal;
 }
 

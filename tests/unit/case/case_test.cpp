@@ -1,4 +1,5 @@
 #include "tunica/case/case.hpp"
+#include "tunica/case/case_text.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -168,6 +169,18 @@ TEST(Case, FieldsAreChosenByName) {
   EXPECT_TRUE(mentions(problems_of(coupled() + "output: {fields: [vorticty]}"), "output.fields", "is not one of"));
   EXPECT_TRUE(mentions(problems_of(coupled() + "post: {}\noutput: {fields: [velocity, displacement, vorticity]}"),
                        "output.fields", "`post` reads: pressure, wall_shear_stress"));
+}
+
+TEST(Case, FieldsThatNoResultsWillHaveAreWarnings) {
+  const auto warnings = [](const std::string& fields) {
+    return read_case(coupled() + "post: {}\noutput: {fields: [velocity, displacement, pressure, wall_shear_stress" +
+                         fields + "]}",
+                     "case.yaml")
+        .warnings;
+  };
+  EXPECT_TRUE(mentions(warnings(""), "output.fields", "names no stress of elements"));
+  EXPECT_TRUE(mentions(warnings(", fibre_stretch"), "output.fields", "`fibre_stretch` is not written: no law"));
+  EXPECT_FALSE(mentions(warnings(", von_mises_stress"), "output.fields", ""));
 }
 
 TEST(Case, SlipsOfTheUnitAreWarnings) {

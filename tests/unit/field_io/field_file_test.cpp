@@ -186,8 +186,9 @@ TEST(SeriesIndex, SeriesOfEarlierVersionsAreNamed) {
 }
 
 TEST(SeriesIndex, TheOverviewHasABlockForEachRegionAtEachTime) {
-  const RegionIndex lumen{"lumen", 9, 2, 10, {{"velocity [m s^-1]", 3}}, {}, {{0, "lumen_000000.hdf"}, {0.5, "b.hdf"}}};
-  const RegionIndex wall{"wall", 5, 3, 4, {}, {{"stress [kPa]", 1}}, {{0, "wall_000000.hdf"}}};
+  const std::vector<ArrayHead> velocity{{"velocity [m s^-1]", 3}};
+  const RegionIndex lumen{"lumen", 9, 2, 10, {{0, "lumen_000000.hdf", velocity}, {0.5, "b.hdf", velocity}}};
+  const RegionIndex wall{"wall", 5, 3, 4, {{0, "wall_000000.hdf", {}, {{"stress [kPa]", 1}}}}};
   const auto text = overview_text({lumen, wall});
   for (const char* part :
        {"<Time Value=\"0.5\"/>", "TopologyType=\"Tetrahedron_10\" NumberOfElements=\"2\"", "Dimensions=\"20\"",

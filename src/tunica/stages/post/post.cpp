@@ -235,7 +235,10 @@ void Post::write() {
     if (too_dissipative) findings.warnings.push_back(*too_dissipative);
     if (!findings.has_flap())
       findings.left_out.push_back({"flap", fmt::format("the wall has no region {}", settings_.flap)});
-    if (findings.frames.stresses().empty()) findings.left_out.push_back({"stress", "the analysis has no wall"});
+    if (findings.frames.stresses().empty())
+      findings.left_out.push_back({"stress", case_.solves_wall()
+                                                 ? "the results have no stress of elements (`output.fields` names none)"
+                                                 : "the analysis has no wall"});
     auto report = report_json(findings);
     auto& files = report["files"] = nlohmann::ordered_json::array();
     for (const auto& write : {write_tables, write_plots, write_fields})

@@ -360,7 +360,6 @@ void check_prestress(const case_file::Case& c, const std::vector<bc::BoundaryFac
 }
 
 int prestress(MPI_Comm comm, const PrestressRequest& request, std::FILE* screen) {
-  const parallel::StopSignals signals;
   return PrestressRun(comm, request, screen).steps();
 }
 

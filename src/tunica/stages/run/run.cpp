@@ -340,7 +340,6 @@ void Run::end() {
 }
 
 RunOutcome run_case(const ReadCase& c, const RunRequest& request, MPI_Comm comm, std::FILE* screen) {
-  const parallel::StopSignals signals;  // one that comes while the run is prepared ends it before the first step
   Simulation simulation(c, request, comm, screen);
   while (simulation.step()) {
   }

@@ -16,7 +16,8 @@ namespace tunica::stages {
 /// - a time series of fields for each region (fields.hpp), histories (histories.hpp), manifest.json, run.log;
 /// - checkpoints/: after every so many steps, at the end, when a signal stops the run and when it fails; the last two
 ///   are kept.
-/// A step that does not converge is halved, and never accepted as it is. Messages go to `screen` of rank 0.
+/// A step that does not converge is halved, and never accepted as it is. Messages go to `screen` of rank 0. Signals stop
+/// it where the caller has parallel::StopSignals; so it is with all stages, which install no handlers.
 ///
 /// Throws InputError with all problems of case and meshes, before anything is written; SolverError when a step fails
 /// after all halvings, with everything until then on disk. The same on all ranks. Collective.

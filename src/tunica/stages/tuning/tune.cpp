@@ -500,7 +500,6 @@ TuningBasis tuning_basis(const case_file::Case& c, const std::vector<bc::Boundar
 }
 
 int tune(MPI_Comm comm, const TuneRequest& request, std::FILE* screen) {
-  const parallel::StopSignals signals;
   return Tuning(comm, request, screen).steps();
 }
 
