@@ -395,17 +395,7 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   apply([&](const bc::Condition& c) { return !symmetry(c) && !no_slip(c); });
   apply(no_slip);
   builder.tie_faces(input);
-  for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh.face(name), every_axis, field);
-  for (const auto& [name, field] : input.traction_fields) {
-    mesh.face(name);
-    loads_.bind(TractionField{index_of[name], field});
-  }
-  for (const auto& [name, nodal] : input.wall_pressures) {
-    SurfaceLoad load{.face = index_of.at(mesh.face(name).name), .kind = SurfaceLoad::Kind::follower_pressure};
-    for (const auto& t : mesh.face(name).triangles)
-      load.pressures.push_back((nodal[t[0]] + nodal[t[1]] + nodal[t[2]]) / 3.0);
-    loads_.bind(load);
-  }
+  bind_given(input, builder, index_of);
   // no_slip wins on shared nodes.
   std::vector<char> still(mesh.nodes(), 0);
   for (const auto& [name, condition] : input.conditions)
@@ -416,43 +406,65 @@ Boundaries::Boundaries(const distributed::DistributedMesh& mesh, const assembly:
   builder.project_on_symmetry();
   find_inflow_nodes();
 
-  // Wall nodes of the displacement element, and wall-only parts of the mesh without fluid, have no pressure unknown.
-  std::vector<char> has_pressure(mesh.nodes(), 0);
-  for (const auto& region : mesh.regions)
-    if (region.kind == mesh::RegionKind::lumen || input.wall_has_pressure)
-      for (const auto& element : region.elements)
-        for (const auto node : element) has_pressure[node] = 1;
-  for (std::int32_t i = 0; i < mesh.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
-  if (input.pressure_point) builder.hold_pressure(*input.pressure_point);
-  idle_pressures_ = find_idle_pressures(mesh, builder.held);
-  for (const auto& idle : idle_pressures_) builder.held[idle.node].pressure = true;
-
-  // The mesh slides along openings and flat walls; curved walls at rest hold it.
-  const auto still_face = [&](const std::string& name) {
-    return std::any_of(input.conditions.begin(), input.conditions.end(),
-                       [&](const auto& c) { return c.first == name && no_slip(c.second); });
-  };
-  for (const auto& face : mesh.faces) {
-    if (mesh.regions[face.region].kind != mesh::RegionKind::lumen) continue;
-    const bool coupled = std::any_of(input.interfaces.begin(), input.interfaces.end(),
-                                     [&](const auto& pair) { return pair.first == face.name; });
-    if (coupled) continue;
-    const Vec3<double> normal = mean_normal(mesh, face);
-    const bool rigid = still_face(face.name) && !(out_of_plane(mesh, face, normal) <= bc::plane_tolerance);
-    builder.for_each_node(face, [&](std::int32_t node) {
-      if (rigid)
-        builder.mesh_held[node].all();
-      else
-        builder.mesh_held[node].direction(normal);
-    });
-  }
-
+  hold_unknown_pressures(input, builder);
+  hold_mesh(input, builder);
   constraints_ = assembly::Constraints(pattern, complete_on_ghosts(mesh, builder.held));
   mesh_constraints_ = complete_on_ghosts(mesh, builder.mesh_held);
   projector_of_.assign(mesh.nodes(), -1);
   for (const auto& c : constraints_.list()) {
     projector_of_[c.node] = static_cast<std::int32_t>(projector_.size());
     projector_.push_back(c.P);
+  }
+}
+
+// Fields and pressures that only code can give.
+void Boundaries::bind_given(const BoundaryInput& input, Builder& builder,
+                            const std::map<std::string, std::size_t>& index_of) {
+  for (const auto& [name, field] : input.velocity_fields) builder.prescribe(mesh_.face(name), every_axis, field);
+  for (const auto& [name, field] : input.traction_fields) {
+    mesh_.face(name);
+    loads_.bind(TractionField{index_of.at(name), field});
+  }
+  for (const auto& [name, nodal] : input.wall_pressures) {
+    SurfaceLoad load{.face = index_of.at(mesh_.face(name).name), .kind = SurfaceLoad::Kind::follower_pressure};
+    for (const auto& t : mesh_.face(name).triangles)
+      load.pressures.push_back((nodal[t[0]] + nodal[t[1]] + nodal[t[2]]) / 3.0);
+    loads_.bind(load);
+  }
+}
+
+void Boundaries::hold_unknown_pressures(const BoundaryInput& input, Builder& builder) {
+  // Wall nodes of the displacement element, and wall-only parts of the mesh without fluid, have no pressure unknown.
+  std::vector<char> has_pressure(mesh_.nodes(), 0);
+  for (const auto& region : mesh_.regions)
+    if (region.kind == mesh::RegionKind::lumen || input.wall_has_pressure)
+      for (const auto& element : region.elements)
+        for (const auto node : element) has_pressure[node] = 1;
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
+  if (input.pressure_point) builder.hold_pressure(*input.pressure_point);
+  idle_pressures_ = find_idle_pressures(mesh_, builder.held);
+  for (const auto& idle : idle_pressures_) builder.held[idle.node].pressure = true;
+}
+
+void Boundaries::hold_mesh(const BoundaryInput& input, Builder& builder) {
+  // The mesh slides along openings and flat walls; curved walls at rest hold it.
+  const auto still_face = [&](const std::string& name) {
+    return std::any_of(input.conditions.begin(), input.conditions.end(),
+                       [&](const auto& c) { return c.first == name && std::holds_alternative<bc::NoSlip>(c.second); });
+  };
+  for (const auto& face : mesh_.faces) {
+    if (mesh_.regions[face.region].kind != mesh::RegionKind::lumen) continue;
+    const bool coupled = std::any_of(input.interfaces.begin(), input.interfaces.end(),
+                                     [&](const auto& pair) { return pair.first == face.name; });
+    if (coupled) continue;
+    const Vec3<double> normal = mean_normal(mesh_, face);
+    const bool rigid = still_face(face.name) && !(out_of_plane(mesh_, face, normal) <= bc::plane_tolerance);
+    builder.for_each_node(face, [&](std::int32_t node) {
+      if (rigid)
+        builder.mesh_held[node].all();
+      else
+        builder.mesh_held[node].direction(normal);
+    });
   }
 }
 

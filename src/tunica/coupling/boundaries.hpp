@@ -1,6 +1,7 @@
 // The conditions of a case, bound to the faces of a distributed mesh.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -115,6 +116,9 @@ class Boundaries {
   };
   struct Builder;
 
+  void bind_given(const BoundaryInput& input, Builder& builder, const std::map<std::string, std::size_t>& index_of);
+  void hold_unknown_pressures(const BoundaryInput& input, Builder& builder);
+  void hold_mesh(const BoundaryInput& input, Builder& builder);
   void find_inflow_nodes();
 
   const distributed::DistributedMesh& mesh_;
