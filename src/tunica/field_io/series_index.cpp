@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -40,6 +41,13 @@ std::string attribute(const ArrayHead& array, const char* centre, const char* gr
                      centre, item("Float", 4, dimensions, fmt::format("{}:/VTKHDF/{}/{}", file, group, array.name)));
 }
 
+/// In the order in which a file that is read gives them, so that a run that goes on lists them as one that did not
+/// stop.
+std::vector<ArrayHead> by_name(std::vector<ArrayHead> arrays) {
+  std::sort(arrays.begin(), arrays.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return arrays;
+}
+
 std::string grid(const RegionIndex& r, const SeriesEntry& instant) {
   const auto corners = r.elements * static_cast<std::size_t>(r.nodes_of_cell);
   const std::string mesh = mesh_file(r.name);
@@ -49,8 +57,8 @@ std::string grid(const RegionIndex& r, const SeriesEntry& instant) {
       r.name, r.nodes_of_cell == 10 ? "Tetrahedron_10" : "Tetrahedron", r.elements,
       item("Int", 4, fmt::format("{}", corners), mesh + ":/VTKHDF/Connectivity"),
       item("Float", 4, fmt::format("{} 3", r.nodes), mesh + ":/VTKHDF/Points"));
-  for (const auto& a : instant.points) text += attribute(a, "Node", "PointData", r.nodes, instant.file);
-  for (const auto& a : instant.cells) text += attribute(a, "Cell", "CellData", r.elements, instant.file);
+  for (const auto& a : by_name(instant.points)) text += attribute(a, "Node", "PointData", r.nodes, instant.file);
+  for (const auto& a : by_name(instant.cells)) text += attribute(a, "Cell", "CellData", r.elements, instant.file);
   return text + "</Grid>\n";
 }
 

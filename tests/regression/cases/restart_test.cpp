@@ -3,6 +3,7 @@
 
 #include "small_cases.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/parallel/signals.hpp"
 
 namespace tunica::test {
 namespace {
@@ -101,7 +102,10 @@ TEST_P(StoppedRun, FinishesItsStepAndCanBeContinued) {
   std::FILE* screen = fopencookie(&trigger, "w", {nullptr, look, nullptr, nullptr});
   stages::RunRequest request = into(parts);
   request.case_file = file;
-  const auto outcome = stages::run(MPI_COMM_WORLD, request, screen);
+  const auto outcome = [&] {
+    const parallel::StopSignals signals;  // stages have no handlers of their own
+    return stages::run(MPI_COMM_WORLD, request, screen);
+  }();
   std::fclose(screen);
   EXPECT_EQ(outcome.signal, GetParam());
   EXPECT_EQ(outcome.steps, 3);
