@@ -70,34 +70,26 @@ PatientSurfaces with_grown_wall(const geometry::TriangleSurface& lumen, const st
   if (!body) surfaces.lumen = inner;
   auto thickness = thickness_by_radius(inner, openings, growth);
   log_thickness(thickness, options.log);
-  const auto grow_as_measured = [&] {
+  if (by_region(growth)) {
+    surfaces.outer = grow_wall(inner, thickness, openings, growth);
+    const auto region = regions_at(inner.points, surfaces, roles, options);
+    for (std::size_t p = 0; p < thickness.size(); ++p) {
+      const auto& given = region[p] == WallRegion::true_lumen_wall    ? growth.true_lumen_wall
+                          : region[p] == WallRegion::false_lumen_wall ? growth.false_lumen_wall
+                          : region[p] == WallRegion::branches         ? growth.branches
+                                                                      : std::optional<double>();
+      if (given) thickness[p] = *given;
+    }
+    constexpr double transition = 3e-3;  // m
+    geometry::average_over_neighbours(inner, sweeps_over(inner, transition), thickness);
+    log_thickness(thickness, options.log);
+  }
+  if (growth.thickness) {
     const auto taken = take_thickness(*growth.thickness, inner.points, thickness);
     options.log(fmt::format("thickness as given at {} of {} points of the lumen", taken, thickness.size()));
     geometry::average_over_neighbours(inner, 2, thickness);  // the thickness of a wall has no steps
     log_thickness(thickness, options.log);
-    surfaces.outer = grow_wall(inner, thickness, openings, growth);
-  };
-  if (by_region(growth) || !growth.thickness) surfaces.outer = grow_wall(inner, thickness, openings, growth);
-  if (!by_region(growth)) {
-    if (growth.thickness) grow_as_measured();
-    return surfaces;
   }
-
-  const auto region = regions_at(inner.points, surfaces, roles, options);
-  for (std::size_t p = 0; p < thickness.size(); ++p) {
-    const auto& given = region[p] == WallRegion::true_lumen_wall    ? growth.true_lumen_wall
-                        : region[p] == WallRegion::false_lumen_wall ? growth.false_lumen_wall
-                        : region[p] == WallRegion::branches         ? growth.branches
-                                                                    : std::optional<double>();
-    if (given) thickness[p] = *given;
-  }
-  constexpr double transition = 3e-3;  // m
-  geometry::average_over_neighbours(inner, sweeps_over(inner, transition), thickness);
-  if (growth.thickness) {
-    grow_as_measured();
-    return surfaces;
-  }
-  log_thickness(thickness, options.log);
   surfaces.outer = grow_wall(inner, thickness, openings, growth);
   return surfaces;
 }

@@ -24,11 +24,12 @@ double mark_thrombus(const geometry::Tetrahedra& mesh, const geometry::TriangleS
   std::map<std::int64_t, double> volume;
   const auto of = [&](std::size_t e) { return pieces.set_of(mesh.elements[e][0]); };
   for (const auto e : inside) volume[of(e)] += std::abs(mesh::volume(mesh.points, mesh.elements[e]));
+  const double smallest = 10 * std::pow(voxel, 3);
   for (const auto e : inside)
-    if (volume[of(e)] > 10 * std::pow(voxel, 3)) regions.of_element[e] = WallRegion::thrombus;
+    if (volume[of(e)] > smallest) regions.of_element[e] = WallRegion::thrombus;
   double sum = 0;
   for (const auto& [piece, size] : volume)
-    if (size > 10 * std::pow(voxel, 3)) sum += size;
+    if (size > smallest) sum += size;
   return sum;
 }
 
