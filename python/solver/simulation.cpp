@@ -20,6 +20,7 @@
 #include "tunica/config/schema.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/shared_error.hpp"
+#include "tunica/quantities/quantity.hpp"
 
 namespace tunica::python {
 

@@ -9,6 +9,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/config/units.hpp"
 #include "tunica/field_io/array_name.hpp"
+#include "tunica/quantities/names.hpp"
 
 namespace tunica::artifacts {
 

@@ -12,6 +12,7 @@
 #include "tunica/case/keys.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/case/plausible.hpp"
+#include "tunica/quantities/quantity.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::case_file {

@@ -26,7 +26,7 @@
 #include "tunica/fluid/parameters.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/mesh_data.hpp"
-#include "tunica/quantities/quantity.hpp"
+#include "tunica/quantities/names.hpp"
 
 namespace tunica::wall {
 struct Parameters;  // wall/parameters.hpp

@@ -12,6 +12,7 @@
 #include "tunica/case/face_patterns.hpp"
 #include "tunica/case/mesh_settings.hpp"
 #include "tunica/geometry/elements_across.hpp"
+#include "tunica/quantities/quantity.hpp"
 #include "tunica/wall/parameters.hpp"
 
 namespace tunica::case_file {

@@ -56,10 +56,6 @@ struct Quantity {
 /// All of them, in the order in which results have them.
 const std::vector<Quantity>& registry();
 
-/// Keys of all, in this order; and the standard ones among them.
-std::vector<std::string> keys();
-std::vector<bool> standard();
-
 /// By key; none when there is no such quantity.
 const Quantity* find(const std::string& key);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tunica/quantities/list.hpp"
+#include "tunica/quantities/names.hpp"
 
 namespace tunica::quantities {
 
