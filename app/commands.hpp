@@ -30,6 +30,7 @@ void add_manual(CLI::App& app);
 void add_material(CLI::App& app);
 void add_measure(CLI::App& app);
 void add_mesh(CLI::App& app);
+void add_motion(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_post(CLI::App& app);

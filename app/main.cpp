@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   tunica::app::add_material(app);
   tunica::app::add_measure(app);
   tunica::app::add_mesh(app);
+  tunica::app::add_motion(app);
   tunica::app::add_picture(app);
   tunica::app::add_plot(app);
   tunica::app::add_post(app);

@@ -11,8 +11,10 @@
 #include "tunica/case/descriptions.hpp"
 #include "tunica/case/fibres_case.hpp"
 #include "tunica/stages/imaging/flow_scan_case.hpp"
+#include "tunica/stages/imaging/motion_scan_case.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
 #include "tunica/stages/measure/measure.hpp"
+#include "tunica/stages/motion/motion.hpp"
 #include "tunica/stages/report/report.hpp"
 
 namespace tunica::app {
@@ -29,6 +31,7 @@ void add_schema(CLI::App& app) {
   struct Kind {
     const char* name;
     std::function<Description()> describe;
+    std::string command = name;
     bool wanted = false;
   };
   const auto kinds = std::make_shared<std::vector<Kind>>(std::vector<Kind>{
@@ -40,15 +43,16 @@ void add_schema(CLI::App& app) {
       {"what-if", [] { return case_file::what_if_description(); }},
       {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},
-      {"image", [] { return Description(stages::ScanCase::schema().description()); }},
-      {"flow-image", [] { return Description(stages::FlowScanCase::schema().description()); }},
+      {"image", [] { return Description(stages::ScanCase::schema().description()); }, "synthesise"},
+      {"flow-image", [] { return Description(stages::FlowScanCase::schema().description()); }, "synthesise --flow"},
+      {"motion-image", [] { return Description(stages::MotionScanCase::schema().description()); },
+       "synthesise --motion"},
       {"measure", [] { return Description(stages::MeasureCase::schema().description()); }},
+      {"motion", [] { return Description(stages::MotionCase::schema().description()); }},
   });
   auto* group = command->add_option_group("file", "Whose file is described instead of that of `tunica run`");
   for (Kind& kind : *kinds)
-    group->add_flag(
-        fmt::format("--{}", kind.name), kind.wanted,
-        fmt::format("The file of `tunica {}`", kind.name == std::string("flow-image") ? "image --flow" : kind.name));
+    group->add_flag(fmt::format("--{}", kind.name), kind.wanted, fmt::format("The file of `tunica {}`", kind.command));
   group->require_option(0, 1);
   command->callback([json, kinds] {
     const auto wanted = std::find_if(kinds->begin(), kinds->end(), [](const Kind& k) { return k.wanted; });

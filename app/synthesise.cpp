@@ -1,11 +1,13 @@
-// tunica synthesise: the idealised dissection as a segmented scan; with --flow a computed beat as velocity images.
+// tunica synthesise: the idealised dissection as a segmented scan; with --flow a computed beat as velocity images, with
+// --motion as labels of its phases.
 #include <cstdio>
 #include <functional>
 #include <memory>
 
+#include "beat_images.hpp"
 #include "commands.hpp"
 #include "file_command.hpp"
-#include "flow_image.hpp"
+#include "session.hpp"
 #include "tunica/stages/imaging/scan_case.hpp"
 
 namespace tunica::app {
@@ -32,15 +34,25 @@ void describe(CLI::App& command, const std::function<void()>& before) {
       "  case: out/dissection/run/case.yaml\n"
       "  period: 0.78 s\n"
       "  scan: {voxel: 2 mm, frames: 25, encoding: 150 cm/s, signal_to_noise: 10}\n"
-      "  output: flow_images");
+      "  output: flow_images\n"
+      "With --motion (`tunica schema --motion-image`):\n"
+      "  case: out/dissection/run/case.yaml\n"
+      "  period: 0.78 s\n"
+      "  phases: 10\n"
+      "  scan: {voxel: 0.7 mm, noise: 0.1}\n"
+      "  output: phases");
   const auto flow = std::make_shared<bool>(false);
-  command.add_flag("--flow", *flow, "Velocity images (phase-contrast MRI) of a beat that was computed");
+  const auto motion = std::make_shared<bool>(false);
+  auto* option = command.add_flag("--flow", *flow, "Velocity images (phase-contrast MRI) of a beat that was computed");
+  command.add_flag("--motion", *motion, "Labels of the phases (gated CT) of a beat that was computed")
+      ->excludes(option);
   add_file_arguments(command,
                      {.file = "What is imaged, and how",
                       .output = "The image or the folder of the images, instead of the one that the file names",
                       .overwrite = "Replace images that are there"},
-                     [flow, before](const FileRequest& request) {
+                     [flow, motion, before](const FileRequest& request) {
                        if (before) before();
+                       if (*motion) throw CLI::RuntimeError(in_session([&] { return motion_image(request), 0; }));
                        *flow ? flow_image(request) : image(request);
                      });
 }
@@ -50,7 +62,7 @@ void describe(CLI::App& command, const std::function<void()>& before) {
 void add_synthesise(CLI::App& app) {
   describe(*app.add_subcommand("synthesise",
                                "Write a synthetic scan: the idealised dissection as a labelled image with noise, or a "
-                               "computed beat as 4D flow"),
+                               "computed beat as 4D flow or gated CT"),
            {});
   describe(*app.add_subcommand("image", "The name of `tunica synthesise` in earlier versions"), [] {
     std::fprintf(stderr,

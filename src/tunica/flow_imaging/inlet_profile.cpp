@@ -48,9 +48,9 @@ NodalCourse profile_at_nodes(const VelocitySeries& series, const ProfileFit& fit
   std::vector<ProfileFit::Weights> weights;
   for (std::size_t n = 0; n < opening.points.size(); ++n)
     weights.push_back(rim[n] ? ProfileFit::Weights{} : fit.weights_at(opening.points[n]));
-  NodalCourse course{.times = series.times, .period = series.period, .velocity = {}};
+  NodalCourse course{.times = series.times, .period = series.period, .values = {}};
   for (std::size_t frame = 0; frame < series.frames(); ++frame) {
-    auto& v = course.velocity.emplace_back(opening.points.size(), Vec3<double>{});
+    auto& v = course.values.emplace_back(opening.points.size(), Vec3<double>{});
     for (std::size_t n = 0; n < v.size(); ++n)
       if (!rim[n]) v[n] = fit.velocity(frame, weights[n]);
     // inflow_profile's phi carries one unit along the normal.
@@ -61,27 +61,28 @@ NodalCourse profile_at_nodes(const VelocitySeries& series, const ProfileFit& fit
 }
 
 NodalCourse resampled(const NodalCourse& course, std::size_t count) {
-  NodalCourse result{.times = {}, .period = course.period, .velocity = {}};
+  NodalCourse result{.times = {}, .period = course.period, .values = {}};
   for (std::size_t k = 0; k < count; ++k)
     result.times.push_back(course.period * static_cast<double>(k) / static_cast<double>(count));
-  const auto nodes = course.velocity.front().size();
-  result.velocity.assign(count, std::vector<Vec3<double>>(nodes, Vec3<double>{}));
+  const auto nodes = course.values.front().size();
+  result.values.assign(count, std::vector<Vec3<double>>(nodes, Vec3<double>{}));
   const bc::TableOptions options{.interpolation = bc::Interpolation::spline, .periodic = true, .period = course.period};
   for (std::size_t n = 0; n < nodes; ++n)
     for (int d = 0; d < 3; ++d) {
       bc::Table table{.times = course.times, .values = {}, .modes = 0};
-      for (const auto& v : course.velocity) table.values.push_back(v[n][d]);
+      for (const auto& v : course.values) table.values.push_back(v[n][d]);
       const auto spline = bc::Waveform::table(table, options, "measured profile");
-      for (std::size_t k = 0; k < count; ++k) result.velocity[k][n][d] = spline.value(result.times[k]);
+      for (std::size_t k = 0; k < count; ++k) result.values[k][n][d] = spline.value(result.times[k]);
     }
   return result;
 }
 
-void write_profile_table(const OpeningMesh& opening, const NodalCourse& course, const std::filesystem::path& file) {
-  std::string text = "t,x,y,z,vx,vy,vz\n";
+void write_nodal_table(std::span<const Vec3<double>> points, const NodalCourse& course, const char* components,
+                       const std::filesystem::path& file) {
+  std::string text = fmt::format("t,x,y,z,{}\n", components);
   for (std::size_t k = 0; k < course.times.size(); ++k)
-    for (std::size_t n = 0; n < opening.points.size(); ++n) {
-      const auto &x = opening.points[n], &v = course.velocity[k][n];
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const auto &x = points[n], &v = course.values[k][n];
       text +=
           fmt::format("{:.12g},{},{},{},{:.7g},{:.7g},{:.7g}\n", course.times[k], x[0], x[1], x[2], v[0], v[1], v[2]);
     }

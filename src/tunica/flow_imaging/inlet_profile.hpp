@@ -21,11 +21,11 @@ struct OpeningMesh {
 };
 OpeningMesh opening_mesh(const mesh::MeshData& data, const mesh::FaceData& face);
 
-/// Velocities at the nodes of an opening.
+/// Vectors at the nodes of a face over the beat.
 struct NodalCourse {
-  std::vector<double> times;                        ///< within one period, ascending from 0 [s]
-  double period = 0;                                ///< s
-  std::vector<std::vector<Vec3<double>>> velocity;  ///< [time][node], m/s
+  std::vector<double> times;                      ///< within one period, ascending from 0 [s]
+  double period = 0;                              ///< s
+  std::vector<std::vector<Vec3<double>>> values;  ///< [time][node]: velocities [m/s], displacements [m]
 };
 
 /// The fitted profile at the nodes, zero on the rim. Its flow at each frame is made that of `outflow` [m^3/s] by a
@@ -36,7 +36,9 @@ NodalCourse profile_at_nodes(const VelocitySeries& series, const ProfileFit& fit
 /// The same course at `count` equal times by periodic cubic splines through the times that it has, at least three.
 NodalCourse resampled(const NodalCourse& course, std::size_t count);
 
-/// Writes it for `profile: {table: ..., period: ..., interpolation: nearest}`, in m, s and m/s.
-void write_profile_table(const OpeningMesh& opening, const NodalCourse& course, const std::filesystem::path& file);
+/// Writes a table with the columns t, x, y, z and those of `components`, in SI units: "vx,vy,vz" for
+/// `profile: {table: ..., period: ..., interpolation: nearest}`, "ux,uy,uz" for `over_face` of a `displacement`.
+void write_nodal_table(std::span<const Vec3<double>> points, const NodalCourse& course, const char* components,
+                       const std::filesystem::path& file);
 
 }  // namespace tunica::flow_imaging

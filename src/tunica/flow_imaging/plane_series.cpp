@@ -165,11 +165,11 @@ NodalCourse plane_at_nodes(const PlaneSeries& plane, const OpeningMesh& opening,
                  &b = to[static_cast<std::size_t>(opening.triangles[k][(i + 1) % 3])];
       disk[static_cast<std::size_t>(opening.edges[k][i])] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
     }
-  NodalCourse course{.times = plane.times, .period = plane.period, .velocity = {}};
+  NodalCourse course{.times = plane.times, .period = plane.period, .values = {}};
   std::vector<DiskPlace> places;
   for (const auto& p : disk) places.push_back(find_in_disk(p, from, plane.triangles));
   for (std::size_t frame = 0; frame < plane.times.size(); ++frame) {
-    auto& v = course.velocity.emplace_back(opening.points.size(), Vec3<double>{});
+    auto& v = course.values.emplace_back(opening.points.size(), Vec3<double>{});
     for (std::size_t n = 0; n < v.size(); ++n) {
       if (rim[n]) continue;
       Vec3<double> u{};

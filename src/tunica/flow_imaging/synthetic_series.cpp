@@ -10,26 +10,6 @@ namespace tunica::flow_imaging {
 
 namespace {
 
-/// Axes turned about (1, 1, 1), and a grid that holds all places with a margin.
-ImageFrame frame_around(const std::vector<Vec3<double>>& points, const PhaseContrast& s) {
-  const double c = std::cos(s.tilt), d = std::sin(s.tilt) / std::sqrt(3.0), t = (1 - c) / 3;
-  const Vec3<double> axes[3] = {{{c + t, t + d, t - d}}, {{t - d, c + t, t + d}}, {{t + d, t - d, c + t}}};
-  ImageFrame frame;
-  for (std::size_t a = 0; a < 3; ++a) {
-    double low = 0, high = 0;
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      const double x = dot(axes[a], points[n]);
-      low = n == 0 ? x : std::min(low, x);
-      high = n == 0 ? x : std::max(high, x);
-    }
-    low -= s.margin;
-    frame.size[a] = 2 + static_cast<std::int64_t>((high + s.margin - low) / s.voxel);
-    frame.steps[a] = s.voxel * axes[a];
-    frame.origin = frame.origin + low * axes[a];
-  }
-  return frame;
-}
-
 using Signal = std::complex<double>;
 
 /// Mean signals of the voxels, one reference without encoding and one for each axis. [voxel][4]
@@ -94,7 +74,7 @@ VelocitySeries phase_contrast(const mesh::MeshData& data, const PhaseContrast& s
   for (std::int64_t k = 0; k < s.frames; ++k) {
     const auto instant = at(static_cast<std::size_t>(k));
     if (k == 0) {
-      series.frame = frame_around(instant.points, s);
+      series.frame = imaging::frame_about(instant.points, s.voxel, s.margin, s.tilt);
       for (std::size_t a = 0; a < 3; ++a) series.encoded[a] = (1 / s.voxel) * series.frame.steps[a];
       series.magnitude.assign(static_cast<std::size_t>(series.voxels()), 0.0F);
     }

@@ -178,6 +178,12 @@ DissectionModel::Sheet DissectionModel::sheet(const Centreline::Closest& c, doub
   return {rounded_intersection(std::abs(side) - 0.5 * f.thickness, -rim, f.rim_fillet), rim, side, w};
 }
 
+double DissectionModel::clot_thickness(double s) const {
+  if (!shape_.thrombus) return 0;
+  const auto& t = *shape_.thrombus;
+  return t.thickness * smooth_step((s - t.start) / t.taper) * smooth_step((t.start + t.length - s) / t.taper);
+}
+
 void DissectionModel::join_tubes(const Point& p, double beyond, Values& v) const {
   const double fillet = shape_.aorta.branch_fillet;
   double nearest = far;
@@ -203,8 +209,9 @@ DissectionModel::Values DissectionModel::at(const Point& p, double beyond) const
   const auto c = centreline_.closest(p);
   const double radius = radius_.at(c.s).value;
   const bool past_cut = c.beyond > 0 && (c.s == 0 || !shape_.iliacs), cut = past_cut && c.beyond > beyond;
-  Values v{far, far, far, far, far, shape_.aorta.wall_thickness, -1};
+  Values v{far, far, far, far, far, far, shape_.aorta.wall_thickness, -1};
   Sheet sheet_values{far, far, far, 0};
+  double clot = far, thick = 0;
   if (!cut) {
     v.lumen = (past_cut ? std::hypot(c.x1, c.x2) : c.distance) - radius;
     // Away from the aorta only branches matter.
@@ -213,6 +220,9 @@ DissectionModel::Values DissectionModel::at(const Point& p, double beyond) const
       const double thin =
           sheet_values.weight * smooth_step(0.5 - sheet_values.side / (6 * mm));  // over the false lumen
       v.thickness = std::lerp(shape_.aorta.wall_thickness, shape_.flap.false_lumen_wall_thickness, thin);
+      thick = clot_thickness(c.s);
+      // In the false lumen, down to this depth from the wall.
+      if (thick > 0) clot = std::max(-v.lumen - thick, sheet_values.side);
     }
     v.outer = v.lumen - v.thickness;
   }
@@ -223,6 +233,10 @@ DissectionModel::Values DissectionModel::at(const Point& p, double beyond) const
   if (v.flap < far) {
     if (v.flap < std::abs(v.lumen)) v.thickness = shape_.flap.thickness;
     v.lumen = rounded_intersection(v.lumen, -v.flap, shape_.flap.corner_fillet);
+  }
+  v.vessel = v.lumen;
+  if (clot < far) {
+    v.lumen = rounded_intersection(v.lumen, -clot, std::min(shape_.flap.corner_fillet, 0.5 * thick));
   }
   return v;
 }

@@ -54,6 +54,7 @@ class DissectionModel {
     double lumen, outer;  ///< < 0 in the lumen; < 0 in lumen or wall [m]
     double flap;          ///< distance from the flap, < 0 within; large where there is none [m]
     double tear;          ///< distance from the rim of the nearest tear [m]
+    double vessel;        ///< < 0 in the lumen and in clotted blood, where `lumen` is not negative [m]
     double side;          ///< > 0 on the side of the true lumen, and where there is no flap [m]
     double thickness;     ///< of the wall or flap nearby [m]
     int branch;           ///< number of the branch, -1 in the aorta
@@ -72,6 +73,7 @@ class DissectionModel {
   Box box() const { return box_; }                                         ///< 3 mm larger than the body
   const std::vector<RoundOpening>& openings() const { return openings_; }  ///< the first one is the inlet
   double aorta_radius(double s) const { return radius_.at(s).value; }
+  bool has_thrombus() const { return shape_.thrombus.has_value(); }
   const Centreline& centreline() const { return centreline_; }
   /// Distance of `p` from the surface of the aorta without branches [m], of the outer surface.
   double outside_aorta(const Point& p) const;
@@ -94,6 +96,7 @@ class DissectionModel {
     double flap, tear, side, weight;
   };
   Sheet sheet(const Centreline::Closest& c, double radius) const;
+  double clot_thickness(double s) const;
   Axes aorta_axes(const Point& p) const;
   void join_tubes(const Point& p, double beyond, Values& v) const;
   double tear_rim(const TearShape& tear, double s, double m, double stretch) const;

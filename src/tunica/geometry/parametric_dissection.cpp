@@ -155,6 +155,21 @@ Schema<IliacShape> iliac_schema() {
       .by_default();
 }
 
+Schema<ThrombusShape> thrombus_schema() {
+  using T = ThrombusShape;
+  return Schema<T>("thrombus", "Clotted blood along the outer wall of the false lumen.")
+      .quantity("start", &T::start, dimension::length, config::above(0),
+                "Where it begins, along the centreline from the inlet")
+      .by_default()
+      .quantity("length", &T::length, dimension::length, config::range(10 * mm, 400 * mm), "Along the centreline")
+      .by_default()
+      .quantity("taper", &T::taper, dimension::length, config::range(3 * mm, 80 * mm),
+                "Length at either end over which it becomes thick")
+      .by_default()
+      .quantity("thickness", &T::thickness, dimension::length, config::range(1.5 * mm, 30 * mm), "From the wall")
+      .by_default();
+}
+
 std::string in_mm(double x) { return fmt::format("{:.4g} mm", x / mm); }
 
 // --- what is impossible -------------------------------------------------------------------------------------------
@@ -243,6 +258,28 @@ void check_tears(const ParametricDissection& d, const DissectionModel& model, Pr
     problems.add("flap.exit_tear.position",
                  fmt::format("is {}, the entry tear at {}", in_mm(d.flap.exit.position), in_mm(d.flap.entry.position)),
                  fmt::format("place it at least {} after the entry tear", in_mm(apart)));
+}
+
+void check_thrombus(const ParametricDissection& d, const DissectionModel& model, Problems& problems) {
+  if (!d.thrombus) return;
+  const auto& t = *d.thrombus;
+  const double first = d.flap.start + d.flap.taper, last = d.flap.start + d.flap.length - d.flap.taper;
+  if (t.start < first || t.start + t.length > last)
+    problems.add("thrombus",
+                 fmt::format("reaches from {} to {}, where the flap is not as far from the wall as in its middle",
+                             in_mm(t.start), in_mm(t.start + t.length)),
+                 fmt::format("place it between {} and {}", in_mm(first), in_mm(last)));
+  if (2 * t.taper > t.length)
+    problems.add("thrombus.taper", fmt::format("is {} at either end of {}", in_mm(t.taper), in_mm(t.length)),
+                 fmt::format("give at most {}", in_mm(t.length / 2)));
+  const double depth = model.depths(t.start + t.length / 2).false_lumen;
+  const double open = std::max(3 * mm, 2 * d.flap.corner_fillet);
+  if (t.thickness > depth - open)
+    problems.add("thrombus.thickness",
+                 fmt::format("is {}, the false lumen there is {} deep", in_mm(t.thickness), in_mm(depth)),
+                 depth - open > 1.5 * mm
+                     ? fmt::format("leave {} to the blood: give at most {}", in_mm(open), in_mm(depth - open))
+                     : "make the false lumen deeper: a smaller true_lumen_share");
 }
 
 /// Smallest distance of the points of two straight lines, sampled.
@@ -345,6 +382,7 @@ Problems impossibilities(const ParametricDissection& shape) {
   check_lumens(shape, model, problems);
   check_tears(shape, model, problems);
   check_branches(shape, model, problems);
+  check_thrombus(shape, model, problems);
   return problems;
 }
 
@@ -372,6 +410,9 @@ Schema<ParametricDissection> ParametricDissection::schema() {
   visceral("right_renal", &P::right_renal, usual_right_renal());
   schema.section("iliacs", &P::iliacs, iliac_schema(),
                  "`{}` for the usual ones; when left out the aorta ends in a plane");
+  schema.section("thrombus", &P::thrombus, thrombus_schema(),
+                 "Partial thrombosis of the false lumen: region `thrombus` of the wall; `{}` for the usual one, none "
+                 "when left out");
   return schema.check([](const P& shape, Problems& problems) {
     const Problems found = impossibilities(shape);
     problems.errors.insert(problems.errors.end(), found.errors.begin(), found.errors.end());

@@ -46,6 +46,12 @@ struct FlapShape {
   TearShape entry{212 * mm, 228 * mm*mm, 1.7, 0}, exit{318 * mm, 227 * mm*mm, 1.7, 0};
 };
 
+/// Clotted blood along the outer wall of the false lumen.
+struct ThrombusShape {
+  double start = 225 * mm, length = 75 * mm, taper = 15 * mm;  ///< taper: at either end, part of the length
+  double thickness = 6 * mm;
+};
+
 struct IliacShape {
   double angle = 25 * degree, radius = 5.5 * mm, length = 45 * mm, wall_thickness = 1.2 * mm;
 };
@@ -58,6 +64,7 @@ struct ParametricDissection {
   BranchShape left_subclavian{141 * mm, 0, 10 * degree, 4.8 * mm, 35 * mm, 1.2 * mm};
   std::optional<BranchShape> celiac, superior_mesenteric, left_renal, right_renal;
   std::optional<IliacShape> iliacs;
+  std::optional<ThrombusShape> thrombus;
 
   /// Branches that are there, by name, in the order of their positions as declared above.
   std::vector<std::pair<std::string, BranchShape>> branches() const;

@@ -102,6 +102,7 @@ void add(vtkFieldData* to, const std::vector<SurfaceArray>& arrays) {
   for (const auto& array : arrays) {
     vtkNew<vtkDoubleArray> values;
     values->SetName(array.name.c_str());
+    values->SetNumberOfComponents(array.components);
     for (const auto v : array.values) values->InsertNextValue(v);
     to->AddArray(values);
   }

@@ -18,6 +18,7 @@ TriangleSurface read_surface(const std::filesystem::path& path, double metres_pe
 struct SurfaceArray {
   std::string name;
   std::vector<double> values;
+  int components = 1;  ///< those of a point stand side by side
 };
 
 /// Writes a .vtp file in metres. Throws InputError when it cannot be written.

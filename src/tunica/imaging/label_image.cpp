@@ -60,6 +60,25 @@ double ImageFrame::voxel_volume() const { return std::abs(determinant(matrix()))
 
 double ImageFrame::largest_spacing() const { return std::max({norm(steps[0]), norm(steps[1]), norm(steps[2])}); }
 
+ImageFrame frame_about(std::span<const Point> places, double voxel, double margin, double tilt) {
+  const double c = std::cos(tilt), d = std::sin(tilt) / std::sqrt(3.0), t = (1 - c) / 3;
+  const Vec3<double> axes[3] = {{{c + t, t + d, t - d}}, {{t - d, c + t, t + d}}, {{t + d, t - d, c + t}}};
+  ImageFrame frame;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double low = 0, high = 0;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const double x = dot(axes[a], places[n]);
+      low = n == 0 ? x : std::min(low, x);
+      high = n == 0 ? x : std::max(high, x);
+    }
+    low -= margin;
+    frame.size[a] = 2 + static_cast<std::int64_t>((high + margin - low) / voxel);
+    frame.steps[a] = voxel * axes[a];
+    frame.origin = frame.origin + low * axes[a];
+  }
+  return frame;
+}
+
 ImageFrame checked_frame(const Size3& size, const std::array<Vec3<double>, 3>& columns, const Point& origin,
                          const std::filesystem::path& path) {
   check_size(size, path);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "tunica/base/tensor.hpp"
@@ -75,6 +76,10 @@ void for_each_voxel_near(const ImageFrame& frame, const Point& centre, double ra
     for (std::int64_t j = low[1]; j <= high[1]; ++j)
       for (std::int64_t i = low[0]; i <= high[0]; ++i) visit(frame.index(i, j, k));
 }
+
+/// Cubic voxels that hold all places with a margin [m]; their axes are those of the patient, turned by `tilt` [rad]
+/// about (1, 1, 1).
+ImageFrame frame_about(std::span<const Point> places, double voxel, double margin, double tilt);
 
 struct LabelImage {
   ImageFrame frame;

@@ -69,18 +69,35 @@ void ScanSettings::add_to(config::Schema<ScanSettings>& schema) {
       .by_default();
 }
 
+void blur_as_seen(const ImageFrame& frame, const ScanSettings& settings, std::vector<float>& values) {
+  const double widths_per_sigma = 2 * std::sqrt(2 * std::log(2.0));
+  if (settings.blur > 0) blur(frame, settings.blur / widths_per_sigma / settings.voxel, values);
+}
+
+std::vector<std::uint8_t> seen_as_lumen(const ImageFrame& frame, std::vector<float> shares,
+                                        const ScanSettings& settings) {
+  blur_as_seen(frame, settings, shares);
+  std::mt19937_64 random(static_cast<std::uint64_t>(settings.seed));
+  std::normal_distribution<double> noise(0, settings.noise);
+  std::vector<std::uint8_t> lumen;
+  lumen.reserve(shares.size());
+  for (const auto share : shares)
+    lumen.push_back(static_cast<double>(share) + (settings.noise > 0 ? noise(random) : 0) < 0.5 ? 0 : 1);
+  return lumen;
+}
+
 LabelImage scan(const geometry::DissectionModel& model, const ScanSettings& settings) {
   LabelImage image{frame_around(model.box(), settings.voxel, settings.tilt), {}};
   const auto& frame = image.frame;
-  auto intensity = shares_of_lumen(model, frame, settings.voxel);
-  const double widths_per_sigma = 2 * std::sqrt(2 * std::log(2.0));
-  if (settings.blur > 0) blur(frame, settings.blur / widths_per_sigma / settings.voxel, intensity);
-  std::mt19937_64 random(static_cast<std::uint64_t>(settings.seed));
-  std::normal_distribution<double> noise(0, settings.noise);
-  image.labels.resize(frame.count());
+  const auto lumen = seen_as_lumen(frame, shares_of_lumen(model, frame, settings.voxel), settings);
+  image.labels.resize(lumen.size());
   for (std::int64_t i = 0; i < frame.count(); ++i) {
-    if (intensity[i] + (settings.noise > 0 ? noise(random) : 0) < 0.5) continue;
-    image.labels[i] = model.at(frame.place(frame.voxel(i))).side > 0 ? scan_true_lumen : scan_false_lumen;
+    if (lumen[i] == 0 && !model.has_thrombus()) continue;
+    const auto values = model.at(frame.place(frame.voxel(i)));
+    if (lumen[i] != 0)
+      image.labels[i] = values.side > 0 ? scan_true_lumen : scan_false_lumen;
+    else if (values.vessel < 0 && values.lumen >= 0)
+      image.labels[i] = scan_thrombus;
   }
   return image;
 }

@@ -1,6 +1,7 @@
 #include "tunica/meshing/geometry.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "tunica/geometry/surface_file.hpp"
 #include "tunica/meshing/dissection_surfaces.hpp"
@@ -46,7 +47,13 @@ GeometrySurfaces from(const geometry::ParametricDissection& shape, const Complex
   VesselRoles roles;
   roles.inlet = "inlet";
   if (!shape.iliacs) roles.aorta_ends = {"abdominal_aorta"};
-  return {dissection_surfaces(geometry::DissectionModel(shape), spacing), 1, roles};
+  const auto model = std::make_shared<const geometry::DissectionModel>(shape);
+  GeometrySurfaces result{dissection_surfaces(*model, spacing), 1, roles};
+  if (shape.thrombus)
+    result.thrombus = {.depth = [model](const geometry::Point& place) { return -model->at(place).vessel; },
+                       .tolerance = 0.35 * geometry::mm,
+                       .smallest = 5e-9};
+  return result;
 }
 
 GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options, bool grow) {
@@ -75,7 +82,10 @@ GeometrySurfaces from(const SurfaceFiles& files, const ComplexOptions& options, 
 
 GeometrySurfaces from(const ImageGeometry& image, const ComplexOptions& options, bool grow) {
   auto made = surfaces_from_image(image, options, grow);
-  return {std::move(made.surfaces), made.lumen_parts, roles_of(image), {}, std::move(made.labelled)};
+  GeometrySurfaces result{std::move(made.surfaces), made.lumen_parts, roles_of(image), {}, std::move(made.labelled)};
+  if (const auto& labelled = result.labelled; labelled.with_thrombus)
+    result.thrombus = thrombus_within(*labelled.with_thrombus, labelled.voxel);
+  return result;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/meshing/grown_wall.hpp"
 #include "tunica/meshing/image_geometry.hpp"
+#include "tunica/meshing/wall_regions.hpp"
 
 namespace tunica::meshing {
 
@@ -36,6 +37,7 @@ struct GeometrySurfaces {
   VesselRoles roles;
   std::optional<int> genus{};  ///< that the lumen must have
   LabelledLumen labelled{};    ///< of an image: what its labels say
+  std::optional<Thrombus> thrombus{};
 };
 
 /// Reads or makes the surfaces; grows the wall where none is given, unless `grow` is false. Errors as of the functions

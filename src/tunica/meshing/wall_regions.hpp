@@ -7,10 +7,13 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "tunica/geometry/tetrahedra.hpp"
 #include "tunica/geometry/triangle_surface.hpp"
+#include "tunica/meshing/improve.hpp"
 
 namespace tunica::meshing {
 
@@ -41,11 +44,27 @@ struct Cap {
 WallRegions find_wall_regions(const geometry::Tetrahedra& mesh, const std::vector<Cap>& caps,
                               const WallRegionOptions& options);
 
-/// Makes the wall elements inside `body` thrombus, whatever else they were found to be: the surface around lumen and
-/// thrombus together, open at the vessel ends, of an image with voxels [m] of that size. Elements count by their
-/// centroid; beside the lumen alone the two surfaces are the same but for what filters do, so it has to lie 0.3 voxels
-/// deep, and pieces below ten voxels are left as they are. Returns the volume of the thrombus [m^3].
-double mark_thrombus(const geometry::Tetrahedra& mesh, const geometry::TriangleSurface& body, double voxel,
-                     WallRegions& regions);
+/// Clotted blood, which is meshed as wall.
+struct Thrombus {
+  /// Of a place in it the distance to where the vessel's own wall begins; of a place in that wall or at its surface to
+  /// the lumen it is not positive [m].
+  std::function<double(const geometry::Point&)> depth;
+  double tolerance = 0;  ///< of that distance [m]
+  double smallest = 0;   ///< pieces up to this volume are none [m^3]
+};
+
+/// What lies inside `body`, the surface around lumen and thrombus together, open at the vessel ends, of an image with
+/// voxels [m] of that size. Beside the lumen alone the two surfaces are the same but for what filters do, so a place
+/// has to lie 0.3 voxels deep, and pieces below ten voxels are none.
+Thrombus thrombus_within(const geometry::TriangleSurface& body, double voxel);
+
+/// Splits wall elements where thrombus and wall meet, so that hardly any is part of both, and mends the shapes of what
+/// comes of it; `project`: of the surfaces of the mesh. Returns the number of nodes that it has added.
+geometry::Index part_thrombus(geometry::Tetrahedra& mesh, const Thrombus& thrombus, const Projection& project,
+                              const std::function<void(const std::string&)>& tell);
+
+/// Makes the wall elements whose centroids lie in the thrombus part of it, whatever else they were found to be; the wall
+/// behind it becomes that of the lumen that the thrombus lies in. Returns its volume [m^3].
+double mark_thrombus(const geometry::Tetrahedra& mesh, const Thrombus& thrombus, WallRegions& regions);
 
 }  // namespace tunica::meshing

@@ -36,7 +36,7 @@ const mesh::FaceData& VesselOfCase::face(const std::string& name) const {
   return *std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const auto& f) { return f.name == name; });
 }
 
-VesselOfCase vessel_of_case(const fs::path& case_file) {
+VesselOfCase vessel_with_corners(const fs::path& case_file) {
   VesselOfCase vessel;
   vessel.settings = case_file::parse_case(config::read_text(case_file), case_file);
   auto& c = vessel.settings;
@@ -47,7 +47,6 @@ VesselOfCase vessel_of_case(const fs::path& case_file) {
     if (!c.solves_wall()) c.meshes.wall.reset(), c.meshes.interface.reset();
   }
   vessel.mesh = artifacts::load_meshes(c.meshes, {}).data;
-  if (c.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(vessel.mesh);
   std::vector<std::string> of_lumen;
   for (const auto& face : vessel.mesh.faces)
     if (vessel.mesh.regions[static_cast<std::size_t>(face.region)].kind == mesh::RegionKind::lumen)
@@ -62,6 +61,12 @@ VesselOfCase vessel_of_case(const fs::path& case_file) {
     throw InputError("post.inlet", fmt::format("the lumen has no opening '{}'", vessel.inlet),
                      "name one of: " + files::listed(vessel.openings));
   std::rotate(vessel.openings.begin(), at, at + 1);
+  return vessel;
+}
+
+VesselOfCase vessel_of_case(const fs::path& case_file) {
+  auto vessel = vessel_with_corners(case_file);
+  if (vessel.settings.elements == case_file::Elements::quadratic) mesh::add_edge_nodes(vessel.mesh);
   return vessel;
 }
 

@@ -24,4 +24,7 @@ struct VesselOfCase {
 /// lumen, and a mesh that has yet to be made. Not collective.
 VesselOfCase vessel_of_case(const std::filesystem::path& case_file);
 
+/// The same with corners alone, whatever elements the case has.
+VesselOfCase vessel_with_corners(const std::filesystem::path& case_file);
+
 }  // namespace tunica::stages

@@ -112,15 +112,15 @@ TEST(Flow, ProfileOfInletIsZeroOnTheRimCarriesTheFlowAndFollowsTheTruth) {
   double squares = 0, size = 0;
   const auto rim = bc::rim_nodes(opening.face());
   for (std::size_t k = 0; k < course.times.size(); ++k) {
-    EXPECT_NEAR(opening.outflow(course.velocity[k]), outflow[k], 1e-9 * std::abs(outflow[k]) + 1e-15);
+    EXPECT_NEAR(opening.outflow(course.values[k]), outflow[k], 1e-9 * std::abs(outflow[k]) + 1e-15);
     for (std::size_t n = 0; n < opening.points.size(); ++n) {
       const auto& x = opening.points[n];
       const double r = std::hypot(x[0], x[1]) / tube.radius;
       const Vec3<double> truth{{0, 0, tube.axial(course.times[k]) * std::max(0.0, 1 - r * r)}};
-      squares += dot(course.velocity[k][n] - truth, course.velocity[k][n] - truth);
+      squares += dot(course.values[k][n] - truth, course.values[k][n] - truth);
       size += dot(truth, truth);
       if (rim[n]) {
-        EXPECT_EQ(norm(course.velocity[k][n]), 0);
+        EXPECT_EQ(norm(course.values[k][n]), 0);
       }
     }
   }
@@ -128,7 +128,7 @@ TEST(Flow, ProfileOfInletIsZeroOnTheRimCarriesTheFlowAndFollowsTheTruth) {
   const auto fine = resampled(course, 100);
   ASSERT_EQ(fine.times.size(), 100U);
   for (std::size_t n = 0; n < opening.points.size(); ++n)
-    EXPECT_NEAR(fine.velocity[25][n][2], course.velocity[3][n][2], 1e-12);
+    EXPECT_NEAR(fine.values[25][n][2], course.values[3][n][2], 1e-12);
 }
 
 TEST(Flow, MeansAreBalancedByTheirVariances) {

@@ -97,9 +97,9 @@ TEST_F(Planes, AreLaidOntoAnOpeningOfAnotherShape) {
   const auto normal = bc::face_shape(opening.face()).normal;
   const auto rim = bc::rim_nodes(opening.face());
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(opening.outflow(course.velocity[k]), -plane.flow(k), 1e-9 * plane.flow(k));
+    EXPECT_NEAR(opening.outflow(course.values[k]), -plane.flow(k), 1e-9 * plane.flow(k));
     for (std::size_t n = 0; n < rim.size(); ++n) {
-      const auto& v = course.velocity[k][n];
+      const auto& v = course.values[k][n];
       if (rim[n]) {
         EXPECT_EQ(norm(v), 0);
       }
@@ -117,7 +117,7 @@ TEST_F(Planes, SameShapeGetsTheSameVelocities) {
   const auto course = plane_at_nodes(plane, opening, 0);
   for (std::size_t n = 0; n < opening.points.size(); ++n) {
     const double r = std::hypot(opening.points[n][0], opening.points[n][1]) / tube.radius;
-    EXPECT_NEAR(course.velocity[0][n][2], std::max(0.0, 1 - r * r), 0.03);
+    EXPECT_NEAR(course.values[0][n][2], std::max(0.0, 1 - r * r), 0.03);
   }
 }
 

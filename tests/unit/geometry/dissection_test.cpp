@@ -54,6 +54,9 @@ TEST(ParametricDissection, ImpossibleOnesAreRefusedWithTheReason) {
       {"brachiocephalic: {length: 10 mm, inclination: -60 deg, angle: 0 deg}", "too near the aorta"},
       {"iliacs: {radius: 9 mm}", "iliacs.radius"},
       {"iliacs: {angle: 15 deg, length: 20 mm}", "apart"},
+      {"thrombus: {start: 180 mm}", "place it between"},
+      {"thrombus: {length: 25 mm}", "at either end"},
+      {"thrombus: {thickness: 20 mm}", "the false lumen there is"},
   };
   for (const auto& [yaml, reason] : cases)
     EXPECT_NE(refusal(yaml).find(reason), std::string::npos) << yaml << "\n" << refusal(yaml);
@@ -137,6 +140,32 @@ TEST(DissectionModel, FlapHasItsThicknessAndSharesTheCrossSection) {
   };
   EXPECT_NEAR(thickness(-1), shape.flap.false_lumen_wall_thickness, 5e-6);
   EXPECT_NEAR(thickness(1), shape.aorta.wall_thickness, 5e-6);
+}
+
+TEST(DissectionModel, ThrombusIsAsThickAsAskedAndLeavesTheWallAsItIs) {
+  const auto shape = parse("thrombus: {thickness: 6 mm}");
+  const geometry::DissectionModel model(shape), without(parse("{}"));
+  const double s = 262e-3, R = shape.aorta.dissected_radius;  // between its ends
+  const geometry::Frame f = model.centreline().frame(s);
+  const double turn =
+      shape.flap.true_lumen_direction + 2 * pi * shape.flap.turns * (s - shape.flap.start) / shape.flap.length;
+  const geometry::Point n = std::cos(turn) * f.e1 + std::sin(turn) * f.e2;
+  double clot = 0;
+  const double step = 1e-6;
+  for (double x = -R - 3e-3; x < R + 3e-3; x += step) {
+    const auto values = model.at(f.origin + x * n), before = without.at(f.origin + x * n);
+    EXPECT_DOUBLE_EQ(values.vessel, before.lumen);
+    EXPECT_DOUBLE_EQ(values.outer, before.outer);
+    if (values.lumen < 0 || values.vessel >= 0) continue;
+    clot += step;
+    EXPECT_LT(values.side, 0) << "in the false lumen";
+  }
+  EXPECT_NEAR(clot, shape.thrombus->thickness, 5e-6);
+  // Neither before nor behind it.
+  for (const double elsewhere : {220e-3, 305e-3}) {
+    const auto p = model.centreline().frame(elsewhere).origin - 0.9 * R * n;
+    EXPECT_DOUBLE_EQ(model.at(p).lumen, without.at(p).lumen);
+  }
 }
 
 /// Area of the holes in the middle surface of the flap, by summing over a grid on it.

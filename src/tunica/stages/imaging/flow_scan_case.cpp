@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "tunica/analysis/field_series.hpp"
 #include "tunica/base/error.hpp"
@@ -13,6 +12,7 @@
 #include "tunica/flow_imaging/inlet_profile.hpp"
 #include "tunica/flow_imaging/read_series.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
+#include "tunica/stages/imaging/computed_beat.hpp"
 #include "tunica/stages/vessel_of_case.hpp"
 
 namespace tunica::stages {
@@ -22,59 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 namespace flow = flow_imaging;
 
-/// Velocity and displacement of a run at any time of a beat, between its fields by straight lines.
-class Beat {
- public:
-  Beat(analysis::FieldSeries& series, double from, double until, const fs::path& results) : series_(series) {
-    const auto& times = series.times();
-    const double step = times.size() < 2 ? 0 : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-    if (times.size() < 3 || from < times.front() - 1.5 * step || until > times.back() + 0.5 * step)
-      throw InputError(results.string(),
-                       fmt::format("holds fields from {:.6g} s to {:.6g} s, which do not cover the beat from {:.6g} s "
-                                   "to {:.6g} s",
-                                   times.front(), times.back(), from, until),
-                       "run longer, or choose `period` and `until`");
-  }
-
-  struct State {
-    std::vector<double> velocity, displacement;  ///< [node][3]
-  };
-  /// Before the first field it is that one.
-  State at(double t) {
-    const auto& times = series_.times();
-    t = std::clamp(t, times.front(), times.back());
-    const auto after = std::min(
-        times.size() - 1, static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin()));
-    const double share = (t - times[after - 1]) / (times[after] - times[after - 1]);
-    const auto &a = frame(after - 1), &b = frame(after);
-    State state;
-    const auto blend = [&](const std::vector<double>& from, const std::vector<double>& to,
-                           std::vector<double>& result) {
-      result.resize(from.size());
-      for (std::size_t i = 0; i < from.size(); ++i) result[i] = (1 - share) * from[i] + share * to[i];
-    };
-    blend(a.velocity, b.velocity, state.velocity);
-    blend(a.displacement, b.displacement, state.displacement);
-    return state;
-  }
-
- private:
-  /// References last until a later frame is asked for that lies two or more behind.
-  const analysis::FieldFrame& frame(std::size_t number) {
-    std::erase_if(held_, [number](const auto& held) { return held.first + 1 < number || held.first > number + 1; });
-    const auto found = held_.find(number);
-    return found != held_.end() ? found->second : held_.emplace(number, series_.read(number)).first->second;
-  }
-  analysis::FieldSeries& series_;
-  std::map<std::size_t, analysis::FieldFrame> held_;
-};
-
 Vec3<double> vector_at(const std::vector<double>& field, std::size_t node) {
   if (field.empty()) return {};
   return {{field[3 * node], field[3 * node + 1], field[3 * node + 2]}};
 }
 
-flow::Instant instant_of(const mesh::MeshData& data, const Beat::State& state) {
+flow::Instant instant_of(const mesh::MeshData& data, const ComputedBeat::State& state) {
   flow::Instant instant;
   for (std::size_t n = 0; n < data.points.size(); ++n) {
     instant.points.push_back(data.points[n] + vector_at(state.displacement, n));
@@ -99,7 +52,7 @@ std::vector<flow::CrossSection> sections_of(const FlowScanCase& scan, const Vess
   return sections;
 }
 
-void write_flows(const std::vector<flow::CrossSection>& sections, const std::vector<double>& times, Beat& beat,
+void write_flows(const std::vector<flow::CrossSection>& sections, const std::vector<double>& times, ComputedBeat& beat,
                  double from, const fs::path& file) {
   std::string text = "time [s]";
   for (const auto& s : sections) text += fmt::format(",{} [ml/s]", s.name);
@@ -117,7 +70,7 @@ void write_flows(const std::vector<flow::CrossSection>& sections, const std::vec
 
 /// At the corners of the elements, or where the run has quadratic ones at all of its nodes.
 void write_profile(const mesh::MeshData& data, const std::string& inlet, const std::vector<double>& times,
-                   double period, Beat& beat, double from, const fs::path& file) {
+                   double period, ComputedBeat& beat, double from, const fs::path& file) {
   const auto& face =
       *std::find_if(data.faces.begin(), data.faces.end(), [&](const auto& f) { return f.name == inlet; });
   std::vector<std::size_t> nodes;
@@ -127,13 +80,13 @@ void write_profile(const mesh::MeshData& data, const std::string& inlet, const s
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   flow::OpeningMesh opening{.name = inlet, .points = {}, .triangles = {}, .edges = {}};
   for (const auto n : nodes) opening.points.push_back(data.points[n]);
-  flow::NodalCourse course{.times = times, .period = period, .velocity = {}};
+  flow::NodalCourse course{.times = times, .period = period, .values = {}};
   for (const double t : times) {
     const auto state = beat.at(from + t);
-    auto& v = course.velocity.emplace_back();
+    auto& v = course.values.emplace_back();
     for (const auto n : nodes) v.push_back(vector_at(state.velocity, n));
   }
-  flow::write_profile_table(opening, course, file);
+  flow::write_nodal_table(opening.points, course, "vx,vy,vz", file);
 }
 
 }  // namespace
@@ -175,7 +128,7 @@ std::string flow_scan_to_files(const FlowScanCase& scan, bool overwrite, const f
   const fs::path results = scan.results.value_or(vessel.settings.output.directory);
   analysis::FieldSeries fields(case_file::describe(vessel.settings), data, results);
   const double until = scan.until.value_or(fields.times().back()), from = until - scan.period;
-  Beat beat(fields, from, until, results);
+  ComputedBeat beat(fields, from, until, results);
   const auto frames = static_cast<double>(scan.scan.frames);
   const auto series = flow::phase_contrast(data, scan.scan, scan.period, [&](std::size_t k) {
     say(fmt::format("frame {} of {}", k + 1, scan.scan.frames));

@@ -31,8 +31,9 @@ std::string scan_to_file(const ScanCase& scan_case, bool overwrite) {
   const geometry::DissectionModel model(*scan_case.parametric);
   imaging::write_label_image(scan(model, scan_case.scan), scan_case.output);
   std::string text =
-      fmt::format("geometry:\n  image:\n    file: {}\n    true_lumen: {}\n    false_lumen: {}\n    openings:\n",
-                  scan_case.output.filename().string(), imaging::scan_true_lumen, imaging::scan_false_lumen);
+      fmt::format("geometry:\n  image:\n    file: {}\n    true_lumen: {}\n    false_lumen: {}\n{}    openings:\n",
+                  scan_case.output.filename().string(), imaging::scan_true_lumen, imaging::scan_false_lumen,
+                  model.has_thrombus() ? fmt::format("    thrombus: {}\n", imaging::scan_thrombus) : "");
   for (const auto& o : model.openings())
     text += fmt::format("      {}: {{centre: [{:.2f} mm, {:.2f} mm, {:.2f} mm]}}\n", o.name, 1e3 * o.centre[0],
                         1e3 * o.centre[1], 1e3 * o.centre[2]);

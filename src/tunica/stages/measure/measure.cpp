@@ -180,7 +180,8 @@ fs::path profile_file(const MeasureCase& c, const std::string& opening) {
 void write_profile(const MeasureCase& c, const flow::OpeningMesh& opening, const flow::NodalCourse& course,
                    const files::Say& say) {
   const auto file = profile_file(c, opening.name);
-  flow::write_profile_table(opening, flow::resampled(course, static_cast<std::size_t>(c.profile->times)), file);
+  flow::write_nodal_table(opening.points, flow::resampled(course, static_cast<std::size_t>(c.profile->times)),
+                          "vx,vy,vz", file);
   say(
       fmt::format("\nThe velocities of {0} at its {1} nodes are the condition\n\n"
                   "boundary:\n  {0}:\n    profile: {{table: {2}, length_unit: m, unit: m/s, period: {3:.9g} s, "

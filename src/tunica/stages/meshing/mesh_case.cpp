@@ -107,6 +107,10 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   const auto project = meshing::projection(prepared);
   meshing::improve(mesh, project, {}, tell);
   check_volumes(mesh);
+  if (geometry.thrombus) {
+    phases.begin("thrombus");
+    tell(fmt::format("{} nodes added", meshing::part_thrombus(mesh, *geometry.thrombus, project, tell)));
+  }
   if (mesh_case.elements_through_wall > 1) {
     phases.begin("layers");
     tell(fmt::format("{} nodes added",
@@ -123,9 +127,8 @@ MadeMesh make_mesh(const case_file::MeshCase& mesh_case, const files::Say& say) 
   phases.begin("regions and faces");
   const auto faces = meshing::sort_surface(mesh, openings);
   auto regions = meshing::wall_regions(mesh, faces, openings, geometry.roles);
-  if (const auto& labelled = geometry.labelled; labelled.with_thrombus)
-    tell(fmt::format("thrombus: {:.2f} ml",
-                     1e6 * meshing::mark_thrombus(mesh, *labelled.with_thrombus, labelled.voxel, regions)));
+  if (geometry.thrombus)
+    tell(fmt::format("thrombus: {:.2f} ml", 1e6 * meshing::mark_thrombus(mesh, *geometry.thrombus, regions)));
   auto data = meshing::assemble(mesh, openings, faces, regions);
   phases.begin("report");
   const auto fidelity = meshing::fidelity(mesh, faces.interface, faces.outer, prepared);

@@ -1,0 +1,241 @@
+#include "tunica/stages/motion/motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tunica/base/error.hpp"
+#include "tunica/base/units.hpp"
+#include "tunica/files/lock.hpp"
+#include "tunica/files/outputs.hpp"
+#include "tunica/flow_imaging/read_series.hpp"
+#include "tunica/geometry/surface_file.hpp"
+#include "tunica/motion_imaging/extension.hpp"
+#include "tunica/parallel/agree.hpp"
+#include "tunica/stages/motion/moving_vessel.hpp"
+
+namespace tunica::stages {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace dimension = config::dimension;
+using config::Problems;
+using config::Schema;
+using motion_imaging::LumenBoundary;
+
+constexpr double margin_of_labels = 5e-3;  ///< beyond reach: blurred labels see the voxels around [m]
+constexpr double least_seen = 0.6;         ///< of the wall: otherwise mesh and images are not of one vessel
+
+void check_phases(const PhaseFiles& f, Problems& problems) {
+  if (f.labels.has_value() == f.surfaces.has_value())
+    problems.add("", f.labels ? "has `labels` and `surfaces`" : "names no files",
+                 "give `labels: labels_*.nrrd`, or `surfaces: phase_*.stl`");
+  if (f.lumens.false_lumen && *f.lumens.false_lumen == f.lumens.true_lumen)
+    problems.add("false_lumen", fmt::format("is {}, as the true one", *f.lumens.false_lumen),
+                 "leave it out where both lumens have one label");
+}
+
+Schema<MotionPoint> point_schema() {
+  return Schema<MotionPoint>("point", "A place in the mesh.")
+      .quantities("place", &MotionPoint::place, dimension::length, config::anything(),
+                  "The node next to it is followed")
+      .shorthand("place");
+}
+
+/// Files and times of the phases, and which of them the mesh is of.
+struct Order {
+  std::vector<std::string> files;
+  std::vector<double> times;
+  std::size_t of_mesh = 0;
+};
+
+Order order_of(const MotionCase& c) {
+  Order order;
+  const auto& f = c.phases;
+  order.files = flow_imaging::files_of_frames(f.labels ? *f.labels : f.surfaces.value(),
+                                              f.labels ? "phases.labels" : "phases.surfaces");
+  if (order.files.size() < 2)
+    throw InputError("phases", "names one phase, at least 2 are needed", "write * in place of the number of the phase");
+  std::vector<std::string> names;
+  for (const auto& file : order.files) names.push_back(fs::path(file).filename().string());
+  order.times = flow_imaging::frame_times(f.times, f.period, names, "phases.times");
+  if (!c.mesh_at) return order;
+  std::string known;
+  for (std::size_t k = 0; k < order.times.size(); ++k) {
+    if (std::abs(order.times[k] - *c.mesh_at) < 1e-6 * f.period) return order.of_mesh = k, order;
+    known += fmt::format("{}{:.6g} s", k == 0 ? "" : ", ", order.times[k]);
+  }
+  throw InputError("mesh_at", fmt::format("of {:.6g} s is the time of no phase", *c.mesh_at),
+                   "choose one of: " + known);
+}
+
+std::vector<Vec3<double>> normals_at(const geometry::TriangleSurface& surface) {
+  std::vector<Vec3<double>> normals;
+  for (const auto& t : surface.triangles) {
+    const auto a = geometry::area_vector(surface, t);
+    normals.push_back((1 / std::max(norm(a), 1e-300)) * a);
+  }
+  return normals;
+}
+
+std::unique_ptr<LumenBoundary> boundary_of(const MotionCase& c, const MovingVessel& v, const std::string& file) {
+  const auto& wall = v.wall.surface;
+  if (c.phases.labels)
+    return motion_imaging::boundary_in_labels(imaging::read_label_image(file), c.phases.lumens, wall.points,
+                                              c.tracking.reach + margin_of_labels, file);
+  std::vector<Point> centres;
+  for (const auto& t : wall.triangles) {
+    Point x{};
+    for (const auto n : t) x = x + (1.0 / 3) * wall.points[static_cast<std::size_t>(n)];
+    centres.push_back(x);
+  }
+  return motion_imaging::boundary_on_surface(geometry::read_surface(file, c.phases.length_unit), centres,
+                                             normals_at(wall));
+}
+
+/// Where both labels meet, at the rims of tears, a label does not tell where its lumen ends.
+void open_rims(MovingVessel& v, double near) {
+  std::vector<Point> across;
+  for (const auto& tear : v.anatomy.tears)
+    for (const auto& t : tear.surface)
+      for (const auto& corner : t.corners)
+        across.push_back(analysis::position(t.nodes, corner, {.points = &v.vessel.mesh.points}));
+  for (std::size_t t = 0; t < v.wall.sides.size(); ++t) {
+    Point centre{};
+    for (const auto n : v.wall.surface.triangles[t])
+      centre = centre + (1.0 / 3) * v.wall.surface.points[static_cast<std::size_t>(n)];
+    for (const auto& x : across)
+      if (norm(x - centre) < near) v.wall.sides[t] = motion_imaging::Side::either;
+  }
+}
+
+void require_seen(const motion_imaging::WallMotion& found, const std::string& file, bool of_mesh, double reach) {
+  double squares = 0;
+  for (const auto& u : found.displacement) squares += dot(u, u) / static_cast<double>(found.displacement.size());
+  const bool far = of_mesh && std::sqrt(squares) > 0.5 * reach;
+  if (found.seen >= least_seen && !far) return;
+  throw InputError(
+      file,
+      far ? fmt::format("the mesh lies {:.3g} mm from the lumen of its own phase", 1e3 * std::sqrt(squares))
+          : fmt::format("the lumen ends near {:.0f} % of the wall of the mesh, {:.0f} % are needed", 100 * found.seen,
+                        100 * least_seen),
+      "mesh and images have to be of one patient and in the same coordinates; `mesh_at` is the phase of the mesh, and "
+      "`reach` has to be longer than the wall moves between two phases");
+}
+
+/// From the phase of the mesh on round the beat, each from where the one before it was found.
+std::vector<Phase> track_phases(const MotionCase& c, MovingVessel& v, const Order& order, const files::Say& say) {
+  std::vector<Phase> phases(order.files.size());
+  std::optional<motion_imaging::WallTracker> tracker;
+  motion_imaging::WallMotion of_mesh;
+  std::vector<Vec3<double>> start;
+  for (std::size_t step = 0; step < phases.size(); ++step) {
+    const auto k = (order.of_mesh + step) % phases.size();
+    const auto boundary = boundary_of(c, v, order.files[k]);
+    if (step == 0) {
+      if (c.phases.lumens.false_lumen) open_rims(v, boundary->grain());
+      tracker.emplace(v.wall, c.tracking);
+    }
+    auto found = tracker->track(*boundary, start);
+    require_seen(found, order.files[k], step == 0, c.tracking.reach);
+    start = found.displacement;
+    if (step == 0) of_mesh = found;
+    auto& phase = phases[k];
+    phase.file = order.files[k];
+    phase.time = order.times[k];
+    phase.residual = found.residual;
+    phase.seen = found.seen;
+    phase.motion = motion_imaging::difference(found, of_mesh);
+    std::vector<std::pair<std::int64_t, Vec3<double>>> given;
+    double largest = 0;
+    for (std::size_t n = 0; n < v.nodes.size(); ++n) {
+      given.emplace_back(v.nodes[n], phase.motion.displacement[n]);
+      largest = std::max(largest, norm(phase.motion.displacement[n]));
+    }
+    phase.displacement = motion_imaging::extended(v.vessel.mesh, given);
+    say(fmt::format("phase {} of {}, {}: moved by up to {:.3g} mm, {:.2g} mm left of it, {:.0f} % of the wall seen",
+                    step + 1, phases.size(), fs::path(phase.file).filename().string(), largest / unit::mm,
+                    phase.residual / unit::mm, 100 * phase.seen));
+  }
+  return phases;
+}
+
+}  // namespace
+
+Schema<PhaseFiles> PhaseFiles::schema() {
+  using F = PhaseFiles;
+  return Schema<F>("phases", "Labels or surfaces at several phases of the beat.")
+      .path("labels", &F::labels, "Label images (NRRD, MetaImage, NIfTI), a name with * for one file a phase")
+      .path("surfaces", &F::surfaces, "Or surfaces of the lumen (.stl, .vtp, .ply, .obj), a name with *")
+      .integer(
+          "true_lumen", [](F & f) -> auto& { return f.lumens.true_lumen; }, config::range(1, 32767),
+          "Label of the lumen, or of the true one")
+      .by_default()
+      .integer(
+          "false_lumen", [](F & f) -> auto& { return f.lumens.false_lumen; }, config::range(1, 32767),
+          "Label of the false lumen; left out where both lumens have one label")
+      .optional()
+      .unit("length_unit", &F::length_unit, dimension::length, "Of the coordinates of `surfaces`")
+      .by_default("mm")
+      .quantity("period", &F::period, dimension::time, config::above(0), "Of the heart beat")
+      .plausible("0.3 s", "2 s")
+      .quantities("times", &F::times, dimension::time, config::at_least(0),
+                  "Of the phases; equal parts of the period when left out")
+      .by_default("[]")
+      .check(check_phases);
+}
+
+Schema<MotionCase> MotionCase::schema() {
+  using M = MotionCase;
+  return Schema<M>("tunica motion", "File of `tunica motion`, in YAML like a case file.")
+      .file("case", &M::case_file, "Case file whose lumen is followed; its mesh is there")
+      .section("phases", &M::phases, PhaseFiles::schema(), "Images or surfaces of the phases")
+      .quantity("mesh_at", &M::mesh_at, dimension::time, config::at_least(0),
+                "Phase whose shape the mesh has; the first one when left out")
+      .quantity(
+          "smoothing", [](M & m) -> auto& { return m.tracking.smoothing; }, dimension::length,
+          config::range(5e-4, 0.05), "Length below which motion is taken for noise")
+      .by_default("4 mm")
+      .quantity(
+          "reach", [](M & m) -> auto& { return m.tracking.reach; }, dimension::length, config::range(1e-3, 0.05),
+          "How far from where it was in the phase before the wall is looked for")
+      .by_default("6 mm")
+      .texts("ends", &M::ends,
+             "Openings that are seen to move: there the lumen ends in the images as it does in the mesh")
+      .by_default("[]")
+      .map("planes", &M::planes, case_file::MeasuredPlane::schema(), "Planes whose areas are told, by name")
+      .by_default()
+      .map("points", &M::points, point_schema(), "Places whose motion is told, by name")
+      .by_default()
+      .texts("rings", &M::rings, "Faces of the wall whose motion becomes a condition: `wall_inlet`")
+      .by_default("[]")
+      .path("output", &M::output, "Folder of the results, relative to that of this file")
+      .by_default("motion");
+}
+
+config::Parsed<MotionCase> read_motion_case(const fs::path& file) {
+  return config::parse_file(MotionCase::schema(), file);
+}
+
+void motion(const MotionCase& c, bool overwrite, MPI_Comm comm, const files::Say& say) {
+  std::optional<files::FolderLock> lock;
+  const auto order = parallel::agree(comm, [&] { return order_of(c); });
+  parallel::on_root(comm, [&] {
+    if (!overwrite && fs::exists(c.output / "motion.json"))
+      throw InputError(c.output.string(), "holds a motion already", "give --overwrite, or another `output`");
+    lock.emplace(c.output);
+    if (!lock->taken_over().empty()) say("warning: " + lock->taken_over());
+    files::try_outputs(c.output, {"curves.csv", "stations.csv", "motion.json"});
+  });
+  auto vessel = find_moving_vessel(c, comm);
+  parallel::on_root(comm, [&] {
+    say(fmt::format("wall of {} triangles, {} phases of {:.4g} s", vessel.wall.surface.triangles.size(),
+                    order.files.size(), c.phases.period));
+    const auto phases = track_phases(c, vessel, order, say);
+    write_motion(c, vessel, phases, say);
+  });
+}
+
+}  // namespace tunica::stages
