@@ -9,4 +9,5 @@ PYBIND11_MODULE(_solver, m) {
   tunica::python::bind_meshes(m);
   tunica::python::bind_simulation(m);
   tunica::python::bind_stages(m);
+  tunica::python::bind_patient(m);
 }

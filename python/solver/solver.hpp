@@ -17,5 +17,6 @@ void bind_simulation(pybind11::module_& m);
 
 /// Prestress, outlets and quantities of cycles.
 void bind_stages(pybind11::module_& m);
+void bind_patient(pybind11::module_& m);
 
 }  // namespace tunica::python

@@ -7,6 +7,12 @@ from ._core import SolverError as SolverError
 from .cases import Case as Case
 from .meshes import Mesh as Mesh
 from .meshes import material_axes as material_axes
+from .patient import MeasuredFlow as MeasuredFlow
+from .patient import Motion as Motion
+from .patient import follow_up as follow_up
+from .patient import measure as measure
+from .patient import motion as motion
+from .patient import what_if as what_if
 from .results import Fields as Fields
 from .results import Pipeline as Pipeline
 from .results import Results as Results

@@ -338,5 +338,42 @@ print("fine")
         self.assertEqual((done.stdout, done.stderr, done.returncode), ("fine\n", "", 0))
 
 
+class Patient(InAFolder):
+    """Images of a computed beat, made by the program and read by Python."""
+
+    def test_flow_and_areas_of_a_tube(self):
+        case = self.folder / "case.yaml"
+        tunica.Case({**CASE, "output": {"every": 1, "directory": "run"}}).save(case)
+        program = [os.environ["TUNICA_PROGRAM"]]
+        subprocess.run([*program, "run", case], check=True, capture_output=True)
+        for kind, text in (("--flow", "scan: {voxel: 1 mm, frames: 4, signal_to_noise: 50}"),
+                           ("--motion", "phases: 3\nscan: {voxel: 0.7 mm}")):
+            scan = self.folder / "scan.yaml"
+            scan.write_text(f"case: case.yaml\nperiod: 10 ms\n{text}\noutput: images{kind}\n")
+            subprocess.run([*program, "synthesise", kind, scan], check=True, capture_output=True)
+        file = self.folder / "flow.yaml"
+        file.write_text("case: case.yaml\nvelocity: {x: images--flow/velocity_x.nii.gz, y: images--flow/velocity_y.nii.gz,"
+                        " z: images--flow/velocity_z.nii.gz, unit: m/s, axes: image, period: 10 ms}\n"
+                        "planes: {middle: {centre: [0 mm, 0 mm, 10 mm], normal: [0, 0, 1]}}\n")
+        flow = tunica.measure(file, self.folder / "flow")
+        self.assertEqual(len(flow.curves["middle [ml/s]"]), 4)
+        self.assertAlmostEqual(flow.curves["middle [ml/s]"][-1] / (1e6 * ramp(9.5e-3)), 1, delta=0.15)
+        file = self.folder / "motion.yaml"
+        file.write_text("case: case.yaml\nphases: {labels: images--motion/labels_*.nrrd, period: 10 ms}\n"
+                        "planes: {middle: {centre: [0 mm, 0 mm, 10 mm], normal: [0, 0, 1]}}\n")
+        motion = tunica.motion(file, self.folder / "motion")
+        areas = motion.curves["middle [mm^2]"]
+        self.assertEqual(len(areas), 3)
+        np.testing.assert_allclose(areas, areas[0], rtol=0.02)
+        self.assertEqual(len(motion.report["phases"]), 3)
+        with self.assertRaisesRegex(tunica.InputError, "overwrite"):
+            tunica.motion(file, self.folder / "motion")
+
+    def test_what_is_wrong_is_told_as_by_the_program(self):
+        for call in (tunica.measure, tunica.motion, tunica.follow_up, tunica.what_if):
+            with self.assertRaises(tunica.InputError):
+                call(self.folder / "none.yaml", self.folder / "out")
+
+
 if __name__ == "__main__":
     unittest.main()

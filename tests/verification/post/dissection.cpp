@@ -1,6 +1,7 @@
 // Lumens, tears and balance of mass on the idealised dissection: a few steps of blood and wall on its coarse mesh, and
 // what `tunica post` finds in them.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,15 +24,32 @@ namespace fs = std::filesystem;
 
 constexpr const char* outlets[] = {"brachiocephalic", "left_common_carotid", "left_subclavian", "abdominal_aorta"};
 
-void make_mesh(const test::SharedFolder& folder) {
-  parallel::on_root(MPI_COMM_WORLD, [&] {
-    case_file::MeshCase c;
-    c.geometry = meshing::Geometry(config::parse_text(geometry::ParametricDissection::schema(), "{}").value);
-    c.size = 7e-3;
-    c.output = folder.path() / "mesh";
-    stages::mesh_to_files(c, false, [](const std::string&) {});
-  });
-}
+/// One mesh serves all.
+class PostDissection : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    parallel::on_root(MPI_COMM_WORLD, [] {
+      mesh_ = fs::temp_directory_path() / fmt::format("tunica_{}_PostDissection_mesh", getpid());
+      case_file::MeshCase c;
+      c.geometry = meshing::Geometry(config::parse_text(geometry::ParametricDissection::schema(), "{}").value);
+      c.size = 7e-3;
+      c.output = mesh_;
+      stages::mesh_to_files(c, false, [](const std::string&) {});
+    });
+  }
+  static void TearDownTestSuite() {
+    std::error_code ignored;
+    if (parallel::rank(MPI_COMM_WORLD) == 0) fs::remove_all(mesh_, ignored);
+  }
+  PostDissection() {
+    parallel::on_root(MPI_COMM_WORLD, [&] { fs::create_directory_symlink(mesh_, folder.path() / "mesh"); });
+  }
+
+  const test::SharedFolder folder;
+
+ private:
+  inline static fs::path mesh_;  // of rank 0
+};
 
 /// Largest residual of the false lumen's balance in the run's own history, relative to the largest flow through a tear.
 double closure(const fs::path& results) {
@@ -62,9 +80,7 @@ std::string case_text() {
   return text + "time: {step: 5 ms, steps: 20, rho_infinity: 0.2}\noutput: {every: 1}\npost: {spacing: 10 mm}\n";
 }
 
-TEST(PostDissection, LumensTearsAndMass) {
-  const test::SharedFolder folder;
-  make_mesh(folder);
+TEST_F(PostDissection, LumensTearsAndMass) {
   const auto report = run_and_post(folder, case_text());
   const fs::path post = folder.path() / "results/post";
 
@@ -105,9 +121,7 @@ TEST(PostDissection, LumensTearsAndMass) {
 
 // What is cut out of quadratic results are the tears of the run, which knows the lumens by the corners of its elements:
 // at the rims of a coarse mesh the nodes on edges would make more of them.
-TEST(PostDissection, QuadraticElementsHaveTheTearsOfTheRun) {
-  const test::SharedFolder folder;
-  make_mesh(folder);
+TEST_F(PostDissection, QuadraticElementsHaveTheTearsOfTheRun) {
   const auto file = folder.write("case.yaml", case_text());
   const auto c = case_file::read_case(file).value;
   const auto run = case_file::describe(c);
@@ -137,9 +151,7 @@ std::string rigid_case_text() {
 }
 
 // The mesh of the lumen alone knows its lumens. What enters the false lumen by one tear leaves it by the other.
-TEST(PostDissection, RigidWall) {
-  const test::SharedFolder folder;
-  make_mesh(folder);
+TEST_F(PostDissection, RigidWall) {
   const auto report = run_and_post(folder, rigid_case_text());
   EXPECT_EQ(report["left_out"].size(), 2u) << report["left_out"].dump();  // flap and stress
   ASSERT_EQ(report["tears"].size(), 2u);
