@@ -25,6 +25,7 @@ void add_fibres(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_follow_up(CLI::App& app);
 void add_synthesise(CLI::App& app);
+void add_identify(CLI::App& app);
 void add_import(CLI::App& app);
 void add_manual(CLI::App& app);
 void add_material(CLI::App& app);

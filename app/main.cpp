@@ -62,6 +62,7 @@ int run(int argc, char** argv) {
   tunica::app::add_fit(app);
   tunica::app::add_follow_up(app);
   tunica::app::add_synthesise(app);
+  tunica::app::add_identify(app);
   tunica::app::add_import(app);
   tunica::app::add_manual(app);
   tunica::app::add_material(app);

@@ -41,6 +41,7 @@ void add_schema(CLI::App& app) {
       {"study", [] { return case_file::study_description(); }},
       {"follow-up", [] { return case_file::follow_up_description(); }},
       {"what-if", [] { return case_file::what_if_description(); }},
+      {"identify", [] { return case_file::identify_description(); }},
       {"fibres", [] { return Description(case_file::FibresCase::schema().description()); }},
       {"report", [] { return Description(stages::ReportCase::schema().description()); }},
       {"image", [] { return Description(stages::ScanCase::schema().description()); }, "synthesise"},

@@ -3,7 +3,7 @@ import re
 import subprocess
 
 KINDS = {"case": "The case file", "mesh": "The file of tunica mesh", "fibres": "The file of tunica fibres", "study": "The file of tunica study",
-         "follow-up": "The file of tunica follow-up", "what-if": "The file of tunica what-if",
+         "follow-up": "The file of tunica follow-up", "what-if": "The file of tunica what-if", "identify": "The file of tunica identify",
          "fit": "The file of tunica fit", "material": "The file of tunica material", "report": "The file of tunica report", "image": "The file of tunica synthesise", "flow-image": "The file of tunica synthesise --flow", "measure": "The file of tunica measure",
          "motion-image": "The file of tunica synthesise --motion", "motion": "The file of tunica motion"}
 

@@ -21,7 +21,7 @@ CONTENTS = {
     "Tutorial": ["docs/tutorial/demo.md", "docs/tutorial/own_tube.md", "docs/tutorial/own_patient.md", "docs/tutorial/own_tissue.md", "docs/tutorial/own_study.md"],
     "Coming from": ["docs/coming_from_simvascular.md"],
     "Guides": ["docs/chain.md", "docs/meshing.md", "docs/fibres.md", "docs/prestress.md", "docs/outlets.md", "docs/results.md", "docs/post.md", "docs/measured.md", "docs/motion.md", "docs/view.md",
-               "docs/study.md", "docs/follow_up.md", "docs/what_if.md", "docs/fit.md", "docs/dispersed_fibres.md", "docs/python.md"],
+               "docs/study.md", "docs/follow_up.md", "docs/what_if.md", "docs/identify.md", "docs/fit.md", "docs/dispersed_fibres.md", "docs/python.md"],
     "Look up": ["gallery", "docs/examples.md", "docs/faq.md", "docs/glossary.md", "docs/inputs.md", "reference/index", "api"],
     "Background": ["docs/theory.md", "docs/verification.md", "docs/validation.md", "docs/performance.md"],
     "Project": ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"],

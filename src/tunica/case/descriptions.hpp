@@ -1,4 +1,4 @@
-// What the files of `tunica material`, `tunica fit`, `tunica mesh`, `tunica study` and `tunica follow-up` may hold, for
+// What the files of `tunica material`, `fit`, `mesh`, `study`, `follow-up`, `what-if` and `identify` may hold, for
 // callers that need not know what it fills.
 #pragma once
 
@@ -14,5 +14,6 @@ std::shared_ptr<const config::Description> mesh_description();
 std::shared_ptr<const config::Description> study_description();
 std::shared_ptr<const config::Description> follow_up_description();
 std::shared_ptr<const config::Description> what_if_description();
+std::shared_ptr<const config::Description> identify_description();
 
 }  // namespace tunica::case_file

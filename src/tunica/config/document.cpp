@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <charconv>
 #include <functional>
 #include <optional>
 
@@ -37,14 +38,28 @@ YAML::Node load(const std::string& given, const std::string& name) {
   }
 }
 
+/// "families[2].k1": families, [2], k1.
 std::vector<std::string> keys_of(std::string_view path) {
   std::vector<std::string> keys;
   for (std::size_t begin = 0; begin <= path.size() && !path.empty();) {
     const auto end = std::min(path.find('.', begin), path.size());
-    keys.emplace_back(path.substr(begin, end - begin));
+    const auto key = path.substr(begin, end - begin);
+    const auto bracket = key.ends_with(']') ? key.rfind('[') : std::string_view::npos;
+    keys.emplace_back(key.substr(0, bracket));
+    if (bracket != std::string_view::npos) keys.emplace_back(key.substr(bracket));
     begin = end + 1;
   }
   return keys;
+}
+
+/// What "[2]" names in a list: its second entry. None where there are fewer.
+std::optional<YAML::Node> entry_of(const YAML::Node& list, const std::string& key) {
+  std::size_t number = 0;
+  const auto* const last = key.data() + key.size() - 1;
+  if (key.size() < 3 || key.front() != '[' || !list.IsSequence()) return std::nullopt;
+  if (const auto read = std::from_chars(key.data() + 1, last, number); read.ptr != last) return std::nullopt;
+  if (number < 1 || number > list.size()) return std::nullopt;
+  return list[number - 1];
 }
 
 // The assignment of yaml-cpp's nodes changes what they refer to, so that going down a tree takes reset().
@@ -52,6 +67,10 @@ std::optional<YAML::Node> find(const YAML::Node& root, std::string_view path) {
   YAML::Node at;
   at.reset(root);
   for (const auto& key : keys_of(path)) {
+    if (const auto entry = entry_of(at, key)) {
+      at.reset(*entry);
+      continue;
+    }
     if (!at.IsMap()) return std::nullopt;
     const YAML::Node& map = at;
     const YAML::Node next = map[key];
@@ -189,11 +208,16 @@ void Document::set(std::string_view path, const Document& value) {
   YAML::Node at;
   at.reset(*node_);
   for (const auto& key : keys_of(path)) {
+    if (const auto entry = entry_of(at, key)) {
+      at.reset(*entry);
+      continue;
+    }
     // yaml-cpp would turn a list into a section, and refuse a scalar without a name.
     if (at.IsScalar() || at.IsSequence())
       throw InputError(std::string(path),
                        fmt::format("`{}` can be no key of a {}", key, at.IsScalar() ? "value" : "list"),
-                       "give the section or list above it as a whole");
+                       at.IsScalar() || !key.starts_with('[') ? "give the section or list above it as a whole"
+                                                              : fmt::format("its entries are [1] to [{}]", at.size()));
     at.reset(at[key]);
   }
   at = YAML::Clone(*value.node_);

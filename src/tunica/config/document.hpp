@@ -16,7 +16,8 @@ class Node;
 
 namespace tunica::config {
 
-/// Paths name keys from the top, as in "wall.material". A copy shares nothing with its original.
+/// Paths name keys from the top, as in "wall.material", and entries of lists that are there by their number from 1, as
+/// in "families[2].k1". A copy shares nothing with its original.
 class Document {
  public:
   Document();

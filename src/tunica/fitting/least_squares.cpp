@@ -6,7 +6,6 @@
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include <memory>
 
 #include "tunica/base/error.hpp"
+#include "tunica/fitting/bounded_step.hpp"
 
 namespace tunica::fitting {
 
@@ -120,45 +120,6 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The step that minimises |r + J d|^2 with x + d within the bounds: a bound that is hit is kept, and the others solve
-/// what is left.
-Eigen::VectorXd bounded_step(const Matrix& normal, const Eigen::VectorXd& gradient, const std::vector<double>& x,
-                             std::vector<bool> held) {
-  const auto n = static_cast<Eigen::Index>(x.size());
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index round = 0; round <= n; ++round) {
-    std::vector<Eigen::Index> open;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (!held[static_cast<std::size_t>(i)]) open.push_back(i);
-    if (open.empty()) break;
-    const auto m = static_cast<Eigen::Index>(open.size());
-    Eigen::MatrixXd A(m, m);
-    Eigen::VectorXd b(m);
-    const Eigen::VectorXd rest = gradient + normal * d;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      b(i) = -rest(open[static_cast<std::size_t>(i)]);
-      for (Eigen::Index j = 0; j < m; ++j)
-        A(i, j) = normal(open[static_cast<std::size_t>(i)], open[static_cast<std::size_t>(j)]);
-    }
-    A.diagonal().array() += 1e-10 * A.diagonal().maxCoeff() + 1e-300;
-    const Eigen::VectorXd more = A.ldlt().solve(b);
-    double length = 1.0;
-    Eigen::Index hit = -1;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Eigen::Index k = open[static_cast<std::size_t>(i)];
-      const double from = x[static_cast<std::size_t>(k)] + d(k), to = from + more(i);
-      const double bound = to > 1.0 ? 1.0 : 0.0;
-      if (to >= 0.0 && to <= 1.0) continue;
-      const double share = (bound - from) / more(i);
-      if (share < length) length = share, hit = k;
-    }
-    for (Eigen::Index i = 0; i < m; ++i) d(open[static_cast<std::size_t>(i)]) += length * more(i);
-    if (hit < 0) break;
-    held[static_cast<std::size_t>(hit)] = true;
-  }
-  return d;
-}
-
 /// A refit on its way.
 class Refit {
  public:
@@ -174,7 +135,7 @@ class Refit {
     for (; at_.iterations < most_steps; ++at_.iterations) {
       const Matrix normal = slopes().transpose() * slopes();
       const Eigen::VectorXd gradient = slopes().transpose() * column(at_.residuals);
-      const Eigen::VectorXd step = bounded_step(normal, gradient, at_.x, held_);
+      const Eigen::VectorXd step = unit_step(normal, gradient);
       const double promised = -2.0 * gradient.dot(step) - step.dot(normal * step);
       at_.converged = promised < enough && (fresh_ || !thorough);
       if (at_.converged) break;
@@ -192,6 +153,13 @@ class Refit {
   static Column column(const std::vector<double>& r) { return {r.data(), static_cast<Eigen::Index>(r.size())}; }
   Eigen::Map<Matrix> slopes() {
     return {J_.data(), static_cast<Eigen::Index>(at_.residuals.size()), static_cast<Eigen::Index>(at_.x.size())};
+  }
+
+  Eigen::VectorXd unit_step(const Matrix& normal, const Eigen::VectorXd& gradient) const {
+    const std::size_t n = at_.x.size();
+    const auto step = bounded_step({normal.data(), n * n}, {gradient.data(), n}, at_.x,
+                                   {std::vector<double>(n, 0.0), std::vector<double>(n, 1.0)}, held_);
+    return column(step);
   }
 
   /// Takes the step, or a half, a quarter, an eighth of it, if the squares fall; J learns from every trial.

@@ -9,6 +9,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/case/face_patterns.hpp"
+#include "tunica/files/csv_file.hpp"
 #include "tunica/files/outputs.hpp"
 
 namespace tunica::pipeline {
@@ -62,6 +63,13 @@ std::string figure_text(double value) { return std::isfinite(value) ? fmt::forma
 
 nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+std::string csv_cell(std::string text) {
+  const bool plain = text.find_first_of(",;\"\r\n\t") == std::string::npos;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return plain ? text : files::quoted(std::move(text));
 }
 
 std::map<std::string, double> read_figures(const std::filesystem::path& post_json) {

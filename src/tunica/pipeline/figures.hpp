@@ -25,6 +25,9 @@ nlohmann::ordered_json finite_or_null(double value);
 /// For readers, with four significant digits; "–" for one that is not finite.
 std::string figure_text(double value);
 
+/// A text as a cell of a table: in one line, and in quotes where spreadsheets need them.
+std::string csv_cell(std::string text);
+
 /// Every number of post.json by its path, entries of lists by their name or their number from 1.
 std::map<std::string, double> read_figures(const std::filesystem::path& post_json);
 

@@ -9,7 +9,6 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/patience.hpp"
-#include "tunica/parallel/shared_error.hpp"
 #include "tunica/pipeline/chain.hpp"
 #include "tunica/pipeline/foresight.hpp"
 #include "tunica/pipeline/plan.hpp"
@@ -63,19 +62,9 @@ class StudyRun {
     chain.case_file = files_[k];
     chain.program = request_.program;
     if (!until_[k].empty()) chain.until = until_[k];
-    std::string error;
-    int signal = 0;
-    try {
-      signal = run_chain(chain, comm_, screen_);
-    } catch (const InputError& e) {
-      error = e.what();
-    } catch (const SolverError& e) {
-      error = e.what();
-    } catch (const parallel::SharedError& e) {
-      error = e.what();
-    }
-    parallel::on_root(comm_, [&] { record(jobs_[k], signal, error); });
-    return signal;
+    const PointEnd end = run_point(chain, comm_, screen_);
+    parallel::on_root(comm_, [&] { record(jobs_[k], end); });
+    return end.signal;
   }
 
   void finish(StudyOutcome& outcome) {
@@ -160,13 +149,12 @@ class StudyRun {
     if (job.until.empty()) write_state(plan_.cases[job.point], {"running", ""});
   }
 
-  void record(const Job& job, int signal, const std::string& error) {
-    if (!error.empty()) {
+  void record(const Job& job, const PointEnd& end) {
+    if (!end.error.empty()) {
       ++failed_;
-      say(fmt::format("{} failed: {}", plan_.name_of(job.point), error));
+      say(fmt::format("{} failed: {}", plan_.name_of(job.point), end.error));
     }
-    if (job.until.empty())
-      write_state(plan_.cases[job.point], {!error.empty() ? "failed" : signal != 0 ? "stopped" : "done", error});
+    if (job.until.empty()) write_state(plan_.cases[job.point], state_of(end));
   }
 
   const StudyRequest& request_;

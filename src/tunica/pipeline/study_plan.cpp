@@ -3,19 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <initializer_list>
-#include <iterator>
 #include <set>
 
 #include "tunica/base/error.hpp"
 #include "tunica/case/case.hpp"
-#include "tunica/case/face_patterns.hpp"
 #include "tunica/config/document.hpp"
-#include "tunica/files/atomic_file.hpp"
-#include "tunica/files/outputs.hpp"
 #include "tunica/pipeline/plan.hpp"
-#include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
 
@@ -24,9 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using config::Document;
 using config::Setting;
-
-/// Is it the key, or one below it?
-bool lies_under(const std::string& path, const std::string& key) { return path == key || path.starts_with(key + "."); }
 
 // --- problems -------------------------------------------------------------------------------------------------------
 
@@ -74,38 +64,16 @@ void check_units(const StudyPlan& plan, std::size_t axis, const std::vector<Sett
 
 // --- cases of the points --------------------------------------------------------------------------------------------
 
-/// The case with the values of a point, its paths as they were; every stage in its own place.
+/// The case with the values of a point, its paths as they were.
 Document varied(const Document& base, const StudyPlan& plan, std::size_t point) {
-  Document document = base;
+  std::vector<std::pair<std::string, std::string>> values;
   for (std::size_t k = 0; k < plan.axes.size(); ++k)
-    document.set(plan.axes[k].key, Document(plan.points[point].values[k], "the value of " + plan.axes[k].key));
-  for (const auto& stage : stages())
-    if (*stage.output != 0) document.remove(stage.output);
+    values.emplace_back(plan.axes[k].key, plan.points[point].values[k]);
+  Document document = with_values(base, values);
   document.remove("compare");
-  const std::string title = document.text("title");
-  document.set("title", fmt::format("{}{}point {}", title, title.empty() ? "" : ": ", point + 1));
+  add_to_title(document, fmt::format("point {}", point + 1));
   return document;
 }
-
-/// All that can matter to a stage before `run`, as text: points with the same text share what it makes.
-std::string what_matters(const Stage& stage, const std::vector<Setting>& settings) {
-  const auto under_any = [](const std::string& path, std::initializer_list<const char*> sections) {
-    return std::any_of(sections.begin(), sections.end(), [&](const char* s) { return lies_under(path, s); });
-  };
-  const bool mesh = stage.name == std::string("mesh"), fibres = stage.name == std::string("fibres");
-  std::string text;
-  for (const auto& s : settings) {
-    if (mesh && !under_any(s.path, {"mesh"})) continue;
-    if (fibres && !under_any(s.path, {"mesh", "meshes", "fibres"})) continue;
-    if (under_any(s.path, {"title", "post", "report", "compare"})) continue;
-    const bool of_no_matter = std::any_of(stage.without.begin(), stage.without.end(),
-                                          [&](const auto& pattern) { return case_file::matches(pattern, s.path); });
-    if (!of_no_matter) text += fmt::format("{}={}\n", s.path, s.value);
-  }
-  return text;
-}
-
-bool is_shareable(const Stage& stage) { return *stage.output != 0 && stage.name != std::string("post"); }
 
 /// Gives the stages that several points have in common a folder, named by the first of them.
 void share_stages(StudyPlan& plan, const std::vector<std::vector<Setting>>& settings,
@@ -121,18 +89,6 @@ void share_stages(StudyPlan& plan, const std::vector<std::vector<Setting>>& sett
           plan.cases[k].shared[stage.name] =
               plan.output / "shared" / fmt::format("{}_{:04}", stage.name, members.front() + 1);
   }
-}
-
-std::string text_of(const StudyPlan& plan, std::size_t point, Document document) {
-  const auto& c = plan.cases[point];
-  config::move_paths(document, *description_of<case_file::Case>(), plan.study.case_file.parent_path(), c.folder);
-  document.set("output.directory", ".");
-  for (const auto& stage : stages())
-    if (const auto at = c.shared.find(stage.name); at != c.shared.end())
-      document.set(stage.output, at->second.lexically_relative(c.folder).string());
-  return fmt::format("# Point {} of `tunica study` {}: {}\n", point + 1, plan.file.filename().string(),
-                     plan.points[point].text(plan.axes)) +
-         config::commented_yaml(document, *description_of<case_file::Case>());
 }
 
 void make_cases(StudyPlan& plan) {
@@ -162,15 +118,13 @@ void make_cases(StudyPlan& plan) {
   problems.add(0, units);
   problems.throw_if_any();
   share_stages(plan, settings, cases);
-  for (std::size_t k = 0; k < plan.points.size(); ++k) plan.cases[k].text = text_of(plan, k, documents[k]);
+  for (std::size_t k = 0; k < plan.points.size(); ++k)
+    plan.cases[k].text = text_of_point(plan.cases[k], documents[k], file.parent_path(),
+                                       fmt::format("Point {} of `tunica study` {}: {}", k + 1,
+                                                   plan.file.filename().string(), plan.points[k].text(plan.axes)));
 }
 
 }  // namespace
-
-fs::path PointCase::folder_of_stage(const std::string& stage) const {
-  const auto at = shared.find(stage);
-  return at == shared.end() ? folder / stage : at->second;
-}
 
 std::string StudyPlan::name_of(std::size_t point) const {
   return fmt::format("point {} ({})", point + 1, points[point].text(axes));
@@ -194,8 +148,7 @@ void write_and_check_cases(const StudyPlan& plan, const std::vector<std::size_t>
   PointProblems problems(plan);
   for (const auto k : points) {
     const auto& c = plan.cases[k];
-    files::make_folder(c.folder);
-    if (!files::holds(c.file, c.text)) files::write_atomically(c.file, c.text);
+    write_case(c);
     std::vector<Problem> warnings;
     try {
       read_chain(c.file, std::nullopt, warnings);

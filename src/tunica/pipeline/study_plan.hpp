@@ -3,25 +3,14 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tunica/case/study_case.hpp"
+#include "tunica/pipeline/point.hpp"
 
 namespace tunica::pipeline {
-
-/// A point as a chain of its own.
-struct PointCase {
-  std::filesystem::path folder, file;  ///< of its results; its case file
-  std::string text;                    ///< of the case file
-  /// Folders of the stages that it shares with other points, by the name of the stage.
-  std::map<std::string, std::filesystem::path> shared{};
-
-  /// Where a stage of it writes.
-  std::filesystem::path folder_of_stage(const std::string& stage) const;
-};
 
 struct StudyPlan {
   case_file::StudyCase study;

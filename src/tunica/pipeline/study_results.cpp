@@ -11,10 +11,7 @@
 #include "tunica/base/limits.hpp"
 #include "tunica/config/json_text.hpp"
 #include "tunica/files/atomic_file.hpp"
-#include "tunica/files/csv_file.hpp"
-#include "tunica/files/hash.hpp"
 #include "tunica/pipeline/figures.hpp"
-#include "tunica/pipeline/record.hpp"
 #include "tunica/pipeline/study_page.hpp"
 
 namespace tunica::pipeline {
@@ -25,22 +22,6 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 using base::nan;
-
-/// A state belongs to the case that it was written for.
-std::string fingerprint(const PointCase& point) {
-  files::Hash hash;
-  hash.add(point.text.data(), point.text.size());
-  return files::hex(hash.value());
-}
-
-fs::path post_json(const PointCase& point) { return point.folder / "post/post.json"; }
-
-double seconds_of(const PointCase& point) {
-  double seconds = 0;
-  for (const auto& stage : stages())
-    if (const auto record = read_record(point.folder_of_stage(stage.name))) seconds += record->seconds;
-  return seconds;
-}
 
 // --- the table ------------------------------------------------------------------------------------------------------
 
@@ -79,27 +60,20 @@ void find_sensitivities(const StudyPlan& plan, std::vector<Quantity>& quantities
   }
 }
 
-/// In one line, and in quotes where spreadsheets need them.
-std::string cell(std::string text) {
-  const bool plain = text.find_first_of(",;\"\r\n\t") == std::string::npos;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return plain ? text : files::quoted(std::move(text));
-}
-
 std::string csv_of(const StudyPlan& plan, const std::vector<Quantity>& quantities,
                    const std::vector<PointResult>& results) {
   std::string csv = "point";
-  for (const auto& axis : plan.axes) csv += fmt::format(",{}", cell(axis.label()));
-  for (const auto& q : quantities) csv += fmt::format(",{}", cell(q.path));
+  for (const auto& axis : plan.axes) csv += fmt::format(",{}", csv_cell(axis.label()));
+  for (const auto& q : quantities) csv += fmt::format(",{}", csv_cell(q.path));
   csv += ",status,seconds,error\n";
   for (std::size_t k = 0; k < results.size(); ++k) {
     csv += fmt::format("{}", k + 1);
     for (std::size_t d = 0; d < plan.axes.size(); ++d)
       csv += fmt::format(",{}", plan.axes[d].numeric ? fmt::format("{:.10g}", plan.points[k].numbers[d])
-                                                     : cell(plan.points[k].values[d]));
+                                                     : csv_cell(plan.points[k].values[d]));
     for (const auto& q : quantities) csv += fmt::format(",{:.10g}", q.values[k]);
-    csv += fmt::format(",{},{:.1f},{}\n", results[k].state.status, results[k].seconds, cell(results[k].state.message));
+    csv +=
+        fmt::format(",{},{:.1f},{}\n", results[k].state.status, results[k].seconds, csv_cell(results[k].state.message));
   }
   return csv;
 }
@@ -169,23 +143,6 @@ std::vector<std::string> remarks(const StudyPlan& plan, const std::vector<PointR
 }
 
 }  // namespace
-
-PointState read_state(const PointCase& point) {
-  const fs::path file = point.folder / "point.json";
-  if (!fs::exists(file)) return {"pending", ""};
-  const auto page = read_json(file);
-  const auto text = [&](const char* key) -> std::string {
-    const bool there = page.is_object() && page.contains(key) && page[key].is_string();
-    return there ? page[key].get<std::string>() : "";
-  };
-  if (text("case") != fingerprint(point) || text("status").empty()) return {"pending", ""};
-  return {text("status"), text("message")};
-}
-
-void write_state(const PointCase& point, const PointState& state) {
-  const ordered_json page = {{"case", fingerprint(point)}, {"status", state.status}, {"message", state.message}};
-  files::write_atomically(point.folder / "point.json", config::json_text(page));
-}
 
 std::vector<PointResult> read_results(const StudyPlan& plan) {
   std::vector<PointResult> results;

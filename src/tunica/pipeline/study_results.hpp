@@ -10,20 +10,13 @@
 
 namespace tunica::pipeline {
 
-/// point.json: how a point ended. Not collective, as all here.
-struct PointState {
-  std::string status;   ///< running, done, stopped, failed; pending: never begun with the case as it is
-  std::string message;  ///< of the error
-};
-PointState read_state(const PointCase& point);
-void write_state(const PointCase& point, const PointState& state);
-
 /// A line of the table.
 struct PointResult {
   PointState state;
   double seconds = 0;                       ///< of all its stages, shared ones included
   std::map<std::string, double> figures{};  ///< by path in post.json; of points that are done
 };
+/// Not collective, as what follows.
 std::vector<PointResult> read_results(const StudyPlan& plan);
 
 /// Writes study.csv, study.json and study.html into the folder of results. Returns lines on what was found: how many

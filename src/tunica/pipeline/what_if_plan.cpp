@@ -9,6 +9,7 @@
 #include "tunica/case/fibres_case.hpp"
 #include "tunica/case/study_case.hpp"
 #include "tunica/pipeline/plan.hpp"
+#include "tunica/pipeline/point.hpp"
 #include "tunica/pipeline/stage_documents.hpp"
 
 namespace tunica::pipeline {
@@ -91,8 +92,7 @@ void change(Document& document, const WhatIfPlan& plan, std::size_t k, const std
     document.set(key, Document(setting.substr(equals + 1), "the value of " + key));
   }
   document.remove("compare");
-  const std::string title = document.text("title");
-  document.set("title", fmt::format("{}{}{}", title, title.empty() ? "" : ": ", name));
+  add_to_title(document, name);
 }
 
 std::vector<std::string> faces_with_flow(const case_file::Case& c) {

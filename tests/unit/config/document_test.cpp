@@ -156,6 +156,21 @@ TEST(Document, NothingIsSetBelowAValue) {
   EXPECT_NE(why("list.0").find("`0` can be no key of a list"), std::string::npos);
 }
 
+TEST(Document, EntriesOfListsHaveNumbers) {
+  Document document("families: [{k1: 1 kPa, k2: 5}, {k1: 2 kPa}]\nnested: [[1, 2], [3]]\n");
+  EXPECT_EQ(document.text("families[2].k1"), "2 kPa");
+  EXPECT_EQ(document.text("nested[1]"), "");
+  EXPECT_TRUE(document.has("families[1].k2") && !document.has("families[2].k2") && !document.has("families[0].k1"));
+  EXPECT_FALSE(document.has("families[3]") || document.has("families[x]") || document.has("families[]"));
+  const Document before = document;
+  document.set("families[2].k1", "3 kPa");
+  document.set("families[2].k2", "7");
+  EXPECT_EQ(document.text("families[2].k1") + document.text("families[2].k2"), "3 kPa7");
+  EXPECT_EQ(document.text("families[1].k1") + before.text("families[2].k1"), "1 kPa2 kPa");
+  const auto why = test::message_of<InputError>([&] { document.set("families[3].k1", "1"); });
+  EXPECT_NE(why.find("its entries are [1] to [2]"), std::string::npos) << why;
+}
+
 TEST(Document, RefusesNamesThatNoFileCanHave) {
   const auto why = [](const std::string& output) {
     return test::message_of<InputError>([&] {
