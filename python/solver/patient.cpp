@@ -13,6 +13,7 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/signals.hpp"
 #include "tunica/pipeline/follow_up.hpp"
+#include "tunica/pipeline/identify.hpp"
 #include "tunica/pipeline/what_if.hpp"
 #include "tunica/stages/measure/measure.hpp"
 #include "tunica/stages/motion/motion.hpp"
@@ -83,6 +84,13 @@ int what_if(const fs::path& file, const Output& output, const py::object& comm, 
   return pipeline::what_if({.file = file, .output = output, .program = program()}, own, Screen(verbose));
 }
 
+int identify(const fs::path& file, const Output& output, const py::object& comm, bool verbose) {
+  const OwnComm own(comm);
+  const py::gil_scoped_release released;
+  const parallel::StopSignals signals;
+  return pipeline::identify({.file = file, .output = output, .program = program()}, own, Screen(verbose)).signal;
+}
+
 }  // namespace
 
 void bind_patient(py::module_& m) {
@@ -90,6 +98,7 @@ void bind_patient(py::module_& m) {
   m.def("motion", motion);
   m.def("follow_up", follow_up);
   m.def("what_if", what_if);
+  m.def("identify", identify);
 }
 
 }  // namespace tunica::python

@@ -3,7 +3,7 @@
 - `tunica.materials`: wall laws with their units, stress and tangent of arrays of deformation gradients, tests.
 - `tunica.Case`, `tunica.Mesh`, `tunica.material_axes`: what is computed, and on what.
 - `tunica.prestress`, `tunica.tune_outlets`, `tunica.Simulation`, `tunica.cycle_quantities`: the computation, runs step by step.
-- `tunica.measure`, `tunica.motion`, `tunica.follow_up`, `tunica.what_if`: data of a patient, and variants of a case.
+- `tunica.measure`, `tunica.motion`, `tunica.follow_up`, `tunica.identify`, `tunica.what_if`: data of a patient, variants of a case.
 - `tunica.open(folder)`: histories, fields and figures that a finished run has left.
 
 What the command line refuses is refused here with the same text: `InputError` (a `ValueError`) for input that is
@@ -35,6 +35,7 @@ _solver_names = {
     "MeasuredFlow": "patient",
     "Motion": "patient",
     "follow_up": "patient",
+    "identify": "patient",
     "measure": "patient",
     "motion": "patient",
     "what_if": "patient",

@@ -10,6 +10,7 @@ from .meshes import material_axes as material_axes
 from .patient import MeasuredFlow as MeasuredFlow
 from .patient import Motion as Motion
 from .patient import follow_up as follow_up
+from .patient import identify as identify
 from .patient import measure as measure
 from .patient import motion as motion
 from .patient import what_if as what_if

@@ -1,4 +1,5 @@
-"""Data of a patient: measured flow, motion over the beat, scans over the years, and what a treatment would change.
+"""Data of a patient: measured flow, motion over the beat, scans over the years, values found from measurements, and what
+a treatment would change.
 
 Each takes the YAML file of the subcommand of that name.
 """
@@ -10,7 +11,7 @@ from pathlib import Path
 from . import _core, _solver
 from .stages import _read, _stopped
 
-__all__ = ["Motion", "MeasuredFlow", "follow_up", "measure", "motion", "what_if"]
+__all__ = ["Motion", "MeasuredFlow", "follow_up", "identify", "measure", "motion", "what_if"]
 
 
 class MeasuredFlow:
@@ -59,6 +60,16 @@ def follow_up(file, output, *, run=False, comm=None, verbose=False):
     file, output = _paths(file, output)
     _stopped(_solver.follow_up(file, output, run, comm, verbose))
     return _read(output / "follow_up.json")
+
+
+def identify(file, output, *, comm=None, verbose=False):
+    """Values of a case from measurements, as `tunica identify`, into ``output``; returns the numbers of identify.json.
+
+    ``converged`` there says whether the search came to its end. Ctrl-C stops it; called again it goes on. Collective.
+    """
+    file, output = _paths(file, output)
+    _stopped(_solver.identify(file, output, comm, verbose))
+    return _read(output / "identify.json")
 
 
 def what_if(file, output, *, comm=None, verbose=False):

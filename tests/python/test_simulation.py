@@ -370,7 +370,7 @@ class Patient(InAFolder):
             tunica.motion(file, self.folder / "motion")
 
     def test_what_is_wrong_is_told_as_by_the_program(self):
-        for call in (tunica.measure, tunica.motion, tunica.follow_up, tunica.what_if):
+        for call in (tunica.measure, tunica.motion, tunica.follow_up, tunica.identify, tunica.what_if):
             with self.assertRaises(tunica.InputError):
                 call(self.folder / "none.yaml", self.folder / "out")
 

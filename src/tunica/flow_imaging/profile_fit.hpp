@@ -1,7 +1,8 @@
 // The velocity in a section of a lumen from the noisy voxels about it.
 //
 // The profile is a Gaussian process that vanishes on the rim, with a correlation length in the plane and three times as
-// much along the normal; voxels are means of it over the part of them that lies in the lumen, diluted by the tissue in
+// much along the normal, beside a share of a profile of steady flow that is hardly known beforehand (an explicit basis
+// function: eq. 2.39-2.41); voxels are means of it over the part of them that lies in the lumen, diluted by the tissue in
 // the rest. How large velocities along and across the normal are is taken from the voxels, less their noise: what is
 // not there is not fitted. What is fitted is linear in the voxels: a flow is a sum of weights times voxels, and so its
 // uncertainty follows from theirs (Rasmussen & Williams 2006, Gaussian Processes for Machine Learning, eq. 2.23-2.26).
@@ -50,14 +51,18 @@ class ProfileFit {
   struct Weights {
     std::vector<double> along, across;
   };
-  Weights weights_at(const Vec3<double>& place) const;
+  Weights weights_at(const Vec3<double>& at) const;
   /// The velocity that such weights give.
   Vec3<double> velocity(std::size_t frame, const Weights& weights) const;
 
  private:
+  struct Place {
+    double x, y, z;  ///< in the plane, and along the normal [m]
+    double steady;   ///< of a profile of steady flow there: 1 in the middle, 0 on the rim
+  };
   /// A part of a voxel that lies in the section's column: mean place, share of the voxel's value.
   struct Part {
-    std::array<double, 3> at;  ///< in the plane, and along the normal [m]
+    Place at;
     double weight;
   };
   struct Observation {
@@ -70,9 +75,11 @@ class ProfileFit {
   void place_rim();
   void prepare();
   struct Factor;
-  double correlation(const std::array<double, 3>& a, const std::array<double, 3>& b) const;
-  double correlation(const Observation& o, const std::array<double, 3>& at) const;
-  std::vector<double> correlations(const std::array<double, 3>& at) const;
+  Place place(const std::array<double, 2>& in_plane, double height) const;
+  void find_radius();
+  double correlation(const Place& a, const Place& b) const;
+  double correlation(const Observation& o, const Place& at) const;
+  std::vector<double> correlations(const Place& at) const;
   std::vector<double> solved(const Factor& factor, std::vector<double> right) const;
   Vec3<double> sum(std::size_t frame, std::span<const double> weights) const;
 
@@ -80,9 +87,10 @@ class ProfileFit {
   const CrossSection& section_;
   SectionColumn column_;
   Noise noise_;
+  double radius_ = 0;                       ///< largest distance from the rim [m]
   double length_, along_ = 0, across_ = 0;  ///< m; variances of the velocities along and across the normal [m^2/s^2]
   std::vector<Observation> observations_;
-  std::vector<std::array<double, 3>> rim_;
+  std::vector<Place> rim_;
   std::vector<double> flow_weights_;
   double flow_deviation_ = 0;
   std::shared_ptr<const Factor> factor_along_, factor_across_;
