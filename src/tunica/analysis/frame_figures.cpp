@@ -23,8 +23,8 @@ std::string station(std::size_t station, std::size_t lumen, const char* what) {
 }
 std::string opening(const std::string& face, const char* what) { return fmt::format("opening {} {}", face, what); }
 std::string tear(const std::string& tear, const char* what) { return fmt::format("{} {}", tear, what); }
-std::string stress(const std::string& region, const std::string& quantity, const std::string& statistic) {
-  return fmt::format("{}: {}: {}", region, quantity, statistic);
+std::string stress(const std::string& part, const std::string& quantity, const std::string& statistic) {
+  return fmt::format("{}: {}: {}", part, quantity, statistic);
 }
 
 }  // namespace column
@@ -58,7 +58,12 @@ std::vector<std::pair<std::int64_t, double>> node_shares(const mesh::MeshData& d
 
 FrameFigures::FrameFigures(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data,
                            const Vessel& vessel, std::vector<std::string> stresses, std::vector<double> start)
-    : settings_(settings), data_(data), vessel_(vessel), stresses_(std::move(stresses)), start_(std::move(start)) {
+    : settings_(settings),
+      data_(data),
+      vessel_(vessel),
+      stresses_(std::move(stresses)),
+      start_(std::move(start)),
+      wall_parts_(analysis::wall_parts(run, data)) {
   for (const auto& t : data.tetrahedra) volumes_.push_back(mesh::volume(data.points, t));
   for (const auto& t : vessel.inside) inside_.insert(inside_.end(), t.begin(), t.end());
   std::sort(inside_.begin(), inside_.end());
@@ -144,32 +149,36 @@ void FrameFigures::flap_figures(const FieldFrame& frame, FigureTable::Row& row) 
   row.emplace_back(column::flap_largest, largest);
 }
 
-std::vector<std::pair<double, double>> FrameFigures::values_of_region(const mesh::RegionData& region,
-                                                                      const std::vector<double>& of_elements) const {
+double FrameFigures::volume_of(const WallPart& part) const {
+  double volume = 0;
+  for (const auto e : part.elements) volume += volumes_[static_cast<std::size_t>(e)];
+  return volume;
+}
+
+std::vector<std::pair<double, double>> FrameFigures::values_in(const WallPart& part,
+                                                               const std::vector<double>& of_elements) const {
   std::vector<std::pair<double, double>> values;
-  for (auto e = region.first_element; e < region.end_element; ++e)
+  for (const auto e : part.elements)
     if (const double v = of_elements[static_cast<std::size_t>(e)]; std::isfinite(v))
       values.emplace_back(v, volumes_[static_cast<std::size_t>(e)]);
   return values;
 }
 
 void FrameFigures::stress_figures(const FieldFrame& frame, FigureTable::Row& row) const {
-  for (const auto& region : data_.regions) {
-    if (region.kind != RegionKind::wall) continue;
+  for (const auto& part : wall_parts_)
     for (std::size_t q = 0; q < stresses_.size(); ++q) {
-      const auto values = values_of_region(region, frame.stress[q]);
+      const auto values = values_in(part, frame.stress[q]);
       double sum = 0, volume = 0;
       for (const auto& [value, weight] : values) {
         sum += weight * value;
         volume += weight;
       }
-      row.emplace_back(column::stress(region.name, stresses_[q], "mean"), sum / volume);
+      row.emplace_back(column::stress(part.name, stresses_[q], "mean"), sum / volume);
       const auto found = percentiles(values, settings_.percentiles);
       for (std::size_t p = 0; p < found.size(); ++p)
-        row.emplace_back(column::stress(region.name, stresses_[q], fmt::format("{:g}", settings_.percentiles[p])),
+        row.emplace_back(column::stress(part.name, stresses_[q], fmt::format("{:g}", settings_.percentiles[p])),
                          found[p]);
     }
-  }
 }
 
 CycleFields FrameFigures::no_fields() const {

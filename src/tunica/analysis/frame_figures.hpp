@@ -10,6 +10,7 @@
 #include "tunica/analysis/figure_table.hpp"
 #include "tunica/analysis/settings.hpp"
 #include "tunica/analysis/vessel.hpp"
+#include "tunica/analysis/wall_parts.hpp"
 
 namespace tunica::analysis {
 
@@ -21,8 +22,8 @@ std::string tear(const std::string& tear, const char* what);  ///< "flow" (into 
 inline constexpr const char *true_volume = "true volume", *false_volume = "false volume",
                             *false_volume_rate = "false volume rate", *flap_mean = "flap mean displacement",
                             *flap_largest = "flap largest displacement";
-/// `statistic`: "mean" or the number of a percentile in the settings.
-std::string stress(const std::string& region, const std::string& quantity, const std::string& statistic);
+/// `part`: of the wall; `statistic`: "mean" or the number of a percentile in the settings.
+std::string stress(const std::string& part, const std::string& quantity, const std::string& statistic);
 }  // namespace column
 
 /// Sums over the frames that one rank has looked at, and over all ranks after `gather`.
@@ -45,9 +46,11 @@ class FrameFigures {
   /// Adds a frame to the fields over the cycle, with its weight in the trapezoidal rule [s].
   void add(const FieldFrame& frame, double weight, CycleFields& fields) const;
 
-  /// Value and volume [m^3] of each element of a wall region that has one.
-  std::vector<std::pair<double, double>> values_of_region(const mesh::RegionData& region,
-                                                          const std::vector<double>& of_elements) const;
+  /// Regions of the wall and their layers.
+  const std::vector<WallPart>& wall_parts() const { return wall_parts_; }
+  /// Value and volume [m^3] of each element of a part of the wall that has one.
+  std::vector<std::pair<double, double>> values_in(const WallPart& part, const std::vector<double>& of_elements) const;
+  double volume_of(const WallPart& part) const;  ///< m^3
   const std::vector<std::string>& stresses() const { return stresses_; }
   const std::vector<double>& volumes() const { return volumes_; }
 
@@ -62,6 +65,7 @@ class FrameFigures {
   const Vessel& vessel_;
   std::vector<std::string> stresses_;
   std::vector<double> start_;
+  std::vector<WallPart> wall_parts_;
   std::vector<double> volumes_;                        ///< of the elements in the reference [m^3]
   std::vector<std::int64_t> inside_;                   ///< nodes at which the flow sticks
   std::vector<std::pair<std::int64_t, double>> flap_;  ///< nodes of the flap and their share of its volume

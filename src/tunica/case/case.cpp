@@ -301,7 +301,8 @@ Schema<OutputSettings> OutputSettings::schema() {
           "wall displacement. docs/results.md tells what they are")
       .by_default()
       .choice("instant", &OutputSettings::instant, {{"balance", Instant::balance}, {"end", Instant::end}},
-              "Instant of pressures, of stresses and strains, and of faces.csv: `balance` within the step, where the equations are "
+              "Instant of pressures, of stresses and strains, and of faces.csv: `balance` within the step, where the "
+              "equations are "
               "met; `end` the end of the step, as svMultiPhysics and svFSI write it")
       .by_default();
 }
@@ -409,6 +410,17 @@ std::vector<std::string> sticking_faces(const Case& c, const std::vector<std::st
   return faces;
 }
 
+namespace {
+
+std::optional<analysis::LayerBorders> borders_of(const wall::Composition& composition) {
+  if (!composition.layers) return std::nullopt;
+  analysis::LayerBorders borders{.depth = composition.layers->depth, .beyond = {}};
+  for (const auto& layer : composition.layers->outwards) borders.beyond.push_back(layer.beyond);
+  return borders;
+}
+
+}  // namespace
+
 analysis::RunDescription describe(const Case& c) {
   analysis::RunDescription run{.fluid = c.solves_fluid(),
                                .wall = c.solves_wall(),
@@ -420,6 +432,10 @@ analysis::RunDescription describe(const Case& c) {
   for (const auto& [face, condition] : c.boundary) {
     if (std::holds_alternative<bc::NoSlip>(condition)) run.sticking_faces.push_back(face);
     if (std::holds_alternative<bc::Flow>(condition)) run.inflow_faces.push_back(face);
+  }
+  if (c.solves_wall()) {
+    run.layers = borders_of(c.wall->composition);
+    for (const auto& [region, own] : c.wall->regions) run.layers_of_region[region] = borders_of(own.composition);
   }
   return run;
 }

@@ -133,7 +133,8 @@ void Post::read() {
   settings_ = settings_of(case_);
   results_ = request_.results.value_or(case_.output.directory);
   folder_ = post_folder(case_, request_);
-  parallel::agree(comm_, [&] { data_ = artifacts::load_meshes(case_.meshes, {}).data; });
+  parallel::agree(comm_,
+                  [&] { data_ = artifacts::load_meshes(case_.meshes, case_file::describe(case_).depths()).data; });
   analysis::tell_lumens_apart(case_file::describe(case_), settings_, data_, comm_);
   parallel::agree(comm_, [&] {
     if (case_.elements == case_file::Elements::quadratic) {

@@ -101,23 +101,18 @@ ordered_json wall_shear(const Findings& f) {
 ordered_json stresses(const Findings& f) {
   ordered_json list = ordered_json::array();
   const auto peak = f.peak();
-  for (const auto& region : f.data.regions) {
-    if (region.kind != RegionKind::wall) continue;
-    double volume = 0;
-    for (auto e = region.first_element; e < region.end_element; ++e)
-      volume += f.frames.volumes()[static_cast<std::size_t>(e)];
-    ordered_json entry = {{"name", region.name}, {"volume_mm3", volume * 1e9}};
+  for (const auto& part : f.frames.wall_parts()) {
+    ordered_json entry = {{"name", part.name}, {"volume_mm3", f.frames.volume_of(part) * 1e9}};
     for (std::size_t q = 0; q < f.frames.stresses().size(); ++q) {
       const auto& quantity = f.frames.stresses()[q];
-      const auto at_peak = f.figures.column(analysis::column::stress(region.name, quantity, "mean"))[peak];
-      if (std::isnan(at_peak)) continue;  // this region has no such fibres
-      const auto most =
-          analysis::percentiles(f.frames.values_of_region(region, f.fields.max_stress[q]), f.settings.percentiles);
+      const auto at_peak = f.figures.column(analysis::column::stress(part.name, quantity, "mean"))[peak];
+      if (std::isnan(at_peak)) continue;  // there are no such fibres
+      const auto most = analysis::percentiles(f.frames.values_in(part, f.fields.max_stress[q]), f.settings.percentiles);
       ordered_json of_peak = {{"mean", at_peak / unit::kPa}}, of_cycle;
       for (std::size_t p = 0; p < most.size(); ++p) {
         const double percent = f.settings.percentiles[p];
         const auto course =
-            f.figures.column(analysis::column::stress(region.name, quantity, fmt::format("{:g}", percent)));
+            f.figures.column(analysis::column::stress(part.name, quantity, fmt::format("{:g}", percent)));
         of_peak[percentile_key(percent)] = course[peak] / unit::kPa;
         of_cycle[percentile_key(percent)] = most[p] / unit::kPa;
       }

@@ -116,18 +116,17 @@ class Plots {
         "Displacement of the flap since the start of the window", "time [s]", "displacement [mm]");
   }
 
-  /// The highest percentile of the first quantity, region by region.
+  /// The highest percentile of the first quantity, part by part of the wall.
   void stress() {
     std::vector<drawing::Series> series;
     const double p = *std::max_element(f_.settings.percentiles.begin(), f_.settings.percentiles.end());
     const auto& quantity = f_.frames.stresses().front();
-    for (const auto& region : f_.data.regions)
-      if (region.kind == mesh::RegionKind::wall)
-        series.push_back(
-            {.name = region.name,
-             .x = f_.times,
-             .y = scaled(f_.figures.column(analysis::column::stress(region.name, quantity, fmt::format("{:g}", p))),
-                         unit::kPa)});
+    for (const auto& part : f_.frames.wall_parts())
+      series.push_back(
+          {.name = part.name,
+           .x = f_.times,
+           .y = scaled(f_.figures.column(analysis::column::stress(part.name, quantity, fmt::format("{:g}", p))),
+                       unit::kPa)});
     write("stress.svg", series, fmt::format("{:g} % of the volume lie below", p), "time [s]", quantity + " [kPa]");
   }
 

@@ -120,15 +120,13 @@ Table station_table(const Findings& f) {
 
 Table stress(const Findings& f) {
   Table table = table_in_time(f);
-  for (const auto& region : f.data.regions) {
-    if (region.kind != mesh::RegionKind::wall) continue;
+  for (const auto& part : f.frames.wall_parts())
     for (const auto& quantity : f.frames.stresses()) {
-      if (std::isnan(f.figures.column(analysis::column::stress(region.name, quantity, "mean"))[0])) continue;
+      if (std::isnan(f.figures.column(analysis::column::stress(part.name, quantity, "mean"))[0])) continue;
       for (const double p : f.settings.percentiles)
-        table.add(fmt::format("{} {} p{:g} [kPa]", region.name, quantity, p),
-                  f.figures.column(analysis::column::stress(region.name, quantity, fmt::format("{:g}", p))), unit::kPa);
+        table.add(fmt::format("{} {} p{:g} [kPa]", part.name, quantity, p),
+                  f.figures.column(analysis::column::stress(part.name, quantity, fmt::format("{:g}", p))), unit::kPa);
     }
-  }
   return table;
 }
 
