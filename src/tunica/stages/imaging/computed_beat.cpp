@@ -8,6 +8,21 @@
 
 namespace tunica::stages {
 
+config::Schema<ImagedBeat> ImagedBeat::schema() {
+  using B = ImagedBeat;
+  return config::Schema<B>("beat", "A beat that was computed.")
+      .file("case", &B::case_file,
+            "Case file that was run; in a folder of `tunica run` that of its stage: run/case.yaml")
+      .folder("results", &B::results, "Folder of its fields; that of the case when left out")
+      .quantity("period", &B::period, config::dimension::time, config::above(0), "Of the heart beat that is imaged")
+      .plausible("0.3 s", "2 s")
+      .quantity("until", &B::until, config::dimension::time, config::above(0),
+                "Where the beat ends; the last field when left out")
+      .map("planes", &B::planes, case_file::MeasuredPlane::schema(),
+           "Planes whose true flows or areas are written too, as in the files of `tunica measure` and `tunica motion`")
+      .by_default();
+}
+
 ComputedBeat::ComputedBeat(analysis::FieldSeries& series, double from, double until,
                            const std::filesystem::path& results)
     : series_(series) {

@@ -4,11 +4,27 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tunica/analysis/field_series.hpp"
+#include "tunica/case/measured_settings.hpp"
+#include "tunica/config/schema.hpp"
 
 namespace tunica::stages {
+
+/// Which beat is imaged, and where its truth is told.
+struct ImagedBeat {
+  std::filesystem::path case_file;
+  std::optional<std::filesystem::path> results;  ///< folder of the fields, instead of that of the case
+  double period = 0;                             ///< s
+  std::optional<double> until;                   ///< end of the beat [s]; none: the last field
+  std::vector<std::pair<std::string, case_file::MeasuredPlane>> planes;
+
+  static config::Schema<ImagedBeat> schema();
+};
 
 /// Velocity and displacement of a run, between its fields by straight lines.
 class ComputedBeat {

@@ -12,7 +12,6 @@
 #include "tunica/flow_imaging/inlet_profile.hpp"
 #include "tunica/flow_imaging/read_series.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
-#include "tunica/stages/imaging/computed_beat.hpp"
 #include "tunica/stages/vessel_of_case.hpp"
 
 namespace tunica::stages {
@@ -47,7 +46,7 @@ std::vector<flow::CrossSection> sections_of(const FlowScanCase& scan, const Vess
       for (auto& t : section.triangles) std::swap(t[1], t[2]);
     sections.push_back(std::move(section));
   }
-  for (const auto& [name, plane] : scan.planes)
+  for (const auto& [name, plane] : scan.beat.planes)
     sections.push_back(flow::plane_section(data, plane.centre, plane.normal, name, "planes." + name));
   return sections;
 }
@@ -96,17 +95,8 @@ config::Schema<FlowScanCase> FlowScanCase::schema() {
   config::Schema<flow::PhaseContrast> scan("scan", "Phase-contrast MRI of three components.");
   flow::PhaseContrast::add_to(scan);
   return config::Schema<F>("tunica synthesise --flow", "File of `tunica synthesise --flow`, in YAML like a case file.")
-      .file("case", &F::case_file,
-            "Case file that was run; in a folder of `tunica run` that of its stage: run/case.yaml")
-      .folder("results", &F::results, "Folder of its fields; that of the case when left out")
-      .quantity("period", &F::period, config::dimension::time, config::above(0), "Of the heart beat that is imaged")
-      .plausible("0.3 s", "2 s")
-      .quantity("until", &F::until, config::dimension::time, config::above(0),
-                "Where the beat ends; the last field when left out")
+      .include(&F::beat, ImagedBeat::schema())
       .section("scan", &F::scan, scan, "The scanner")
-      .by_default()
-      .map("planes", &F::planes, case_file::MeasuredPlane::schema(),
-           "Planes whose true flows are written too, as in the file of `tunica measure`")
       .by_default()
       .path("output", &F::output, "Folder of the images, relative to that of this file")
       .by_default("flow_images");
@@ -122,27 +112,27 @@ std::string flow_scan_to_files(const FlowScanCase& scan, bool overwrite, const f
   const files::FolderLock lock(scan.output);
   if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
   files::try_outputs(scan.output, {"velocity_x.nii.gz", "truth.csv"});
-  const auto vessel = vessel_of_case(scan.case_file);
+  const auto vessel = vessel_of_case(scan.beat.case_file);
   const auto data = vessel.mesh.edges.empty() ? vessel.mesh : mesh::subdivided(vessel.mesh);
   const auto sections = sections_of(scan, vessel, data);
-  const fs::path results = scan.results.value_or(vessel.settings.output.directory);
+  const fs::path results = scan.beat.results.value_or(vessel.settings.output.directory);
   analysis::FieldSeries fields(case_file::describe(vessel.settings), data, results);
-  const double until = scan.until.value_or(fields.times().back()), from = until - scan.period;
+  const double until = scan.beat.until.value_or(fields.times().back()), from = until - scan.beat.period;
   ComputedBeat beat(fields, from, until, results);
   const auto frames = static_cast<double>(scan.scan.frames);
-  const auto series = flow::phase_contrast(data, scan.scan, scan.period, [&](std::size_t k) {
+  const auto series = flow::phase_contrast(data, scan.scan, scan.beat.period, [&](std::size_t k) {
     say(fmt::format("frame {} of {}", k + 1, scan.scan.frames));
-    return instant_of(data, beat.at(from + scan.period * static_cast<double>(k) / frames));
+    return instant_of(data, beat.at(from + scan.beat.period * static_cast<double>(k) / frames));
   });
   flow::write_series(series, scan.output);
   write_flows(sections, series.times, beat, from, scan.output / "truth.csv");
-  write_profile(data, vessel.inlet, series.times, scan.period, beat, from,
+  write_profile(data, vessel.inlet, series.times, scan.beat.period, beat, from,
                 scan.output / fmt::format("truth_{}.csv", vessel.inlet));
   const auto folder = scan.output.filename().string();
   return fmt::format(
       "velocity:\n  x: {0}/velocity_x.nii.gz\n  y: {0}/velocity_y.nii.gz\n  z: {0}/velocity_z.nii.gz\n"
       "  magnitude: {0}/magnitude.nii.gz\n  unit: m/s\n  encoding: {1:.6g} m/s\n  axes: image\n  period: {2:.9g} s\n",
-      folder, scan.scan.encoding, scan.period);
+      folder, scan.scan.encoding, scan.beat.period);
 }
 
 }  // namespace tunica::stages

@@ -2,25 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "tunica/case/measured_settings.hpp"
 #include "tunica/config/schema.hpp"
 #include "tunica/files/phases.hpp"
 #include "tunica/flow_imaging/synthetic_series.hpp"
+#include "tunica/stages/imaging/computed_beat.hpp"
 
 namespace tunica::stages {
 
 struct FlowScanCase {
-  std::filesystem::path case_file;
-  std::optional<std::filesystem::path> results;  ///< folder of the fields, instead of that of the case
-  double period = 0;                             ///< s
-  std::optional<double> until;                   ///< end of the beat [s]; none: the last field
+  ImagedBeat beat;
   flow_imaging::PhaseContrast scan;
-  std::vector<std::pair<std::string, case_file::MeasuredPlane>> planes;
   std::filesystem::path output;
 
   static config::Schema<FlowScanCase> schema();

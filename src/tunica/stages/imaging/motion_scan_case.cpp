@@ -16,7 +16,6 @@
 #include "tunica/mesh/edge_nodes.hpp"
 #include "tunica/mesh/lumen_side.hpp"
 #include "tunica/motion_imaging/synthetic_phases.hpp"
-#include "tunica/stages/imaging/computed_beat.hpp"
 #include "tunica/stages/vessel_of_case.hpp"
 
 namespace tunica::stages {
@@ -52,19 +51,10 @@ config::Schema<MotionScanCase> MotionScanCase::schema() {
   imaging::ScanSettings::add_to(scan);
   return config::Schema<M>("tunica synthesise --motion",
                            "File of `tunica synthesise --motion`, in YAML like a case file.")
-      .file("case", &M::case_file,
-            "Case file that was run; in a folder of `tunica run` that of its stage: run/case.yaml")
-      .folder("results", &M::results, "Folder of its fields; that of the case when left out")
-      .quantity("period", &M::period, config::dimension::time, config::above(0), "Of the heart beat that is imaged")
-      .plausible("0.3 s", "2 s")
-      .quantity("until", &M::until, config::dimension::time, config::above(0),
-                "Where the beat ends; the last field when left out")
+      .include(&M::beat, ImagedBeat::schema())
       .integer("phases", &M::phases, config::range(2, 100), "Images over the beat")
       .by_default()
       .section("scan", &M::scan, scan, "The scanner")
-      .by_default()
-      .map("planes", &M::planes, case_file::MeasuredPlane::schema(),
-           "Planes whose true areas are written, as in the file of `tunica motion`")
       .by_default()
       .path("output", &M::output, "Folder of the images, relative to that of this file")
       .by_default("phases");
@@ -80,15 +70,15 @@ std::string motion_scan_to_files(const MotionScanCase& scan, bool overwrite, con
   const files::FolderLock lock(scan.output);
   if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
   files::try_outputs(scan.output, {"labels_000.nrrd", "truth.csv"});
-  const auto vessel = vessel_with_corners(scan.case_file);
+  const auto vessel = vessel_with_corners(scan.beat.case_file);
   const auto data = imaged_mesh(vessel);
   const auto side = side_of(data);
   std::vector<flow_imaging::CrossSection> planes;
-  for (const auto& [name, plane] : scan.planes)
+  for (const auto& [name, plane] : scan.beat.planes)
     planes.push_back(flow_imaging::plane_section(vessel.mesh, plane.centre, plane.normal, name, "planes." + name));
-  const fs::path results = scan.results.value_or(vessel.settings.output.directory);
+  const fs::path results = scan.beat.results.value_or(vessel.settings.output.directory);
   analysis::FieldSeries fields(case_file::describe(vessel.settings), data, results);
-  const double until = scan.until.value_or(fields.times().back()), from = until - scan.period;
+  const double until = scan.beat.until.value_or(fields.times().back()), from = until - scan.beat.period;
   ComputedBeat beat(fields, from, until, results);
 
   const auto frame = imaging::frame_about(data.points, scan.scan.voxel, margin, scan.scan.tilt);
@@ -97,7 +87,7 @@ std::string motion_scan_to_files(const MotionScanCase& scan, bool overwrite, con
   truth += "\n";
   for (std::int64_t k = 0; k < scan.phases; ++k) {
     say(fmt::format("phase {} of {}", k + 1, scan.phases));
-    const double t = scan.period * static_cast<double>(k) / static_cast<double>(scan.phases);
+    const double t = scan.beat.period * static_cast<double>(k) / static_cast<double>(scan.phases);
     const auto displacement = beat.at(from + t).displacement;
     auto points = data.points;
     for (std::size_t n = 0; n < points.size() && !displacement.empty(); ++n)
@@ -111,7 +101,7 @@ std::string motion_scan_to_files(const MotionScanCase& scan, bool overwrite, con
   }
   files::write_atomically(scan.output / "truth.csv", truth);
   return fmt::format("phases: {{labels: {}/labels_*.nrrd, true_lumen: 1{}, period: {:.9g} s}}\n",
-                     scan.output.filename().string(), side.empty() ? "" : ", false_lumen: 2", scan.period);
+                     scan.output.filename().string(), side.empty() ? "" : ", false_lumen: 2", scan.beat.period);
 }
 
 }  // namespace tunica::stages

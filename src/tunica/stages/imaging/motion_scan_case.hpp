@@ -2,26 +2,19 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "tunica/case/measured_settings.hpp"
 #include "tunica/config/schema.hpp"
 #include "tunica/files/phases.hpp"
 #include "tunica/imaging/scan_settings.hpp"
+#include "tunica/stages/imaging/computed_beat.hpp"
 
 namespace tunica::stages {
 
 struct MotionScanCase {
-  std::filesystem::path case_file;
-  std::optional<std::filesystem::path> results;  ///< folder of the fields, instead of that of the case
-  double period = 0;                             ///< s
-  std::optional<double> until;                   ///< end of the beat [s]; none: the last field
+  ImagedBeat beat;
   std::int64_t phases = 10;
   imaging::ScanSettings scan;
-  std::vector<std::pair<std::string, case_file::MeasuredPlane>> planes;
   std::filesystem::path output;
 
   static config::Schema<MotionScanCase> schema();
