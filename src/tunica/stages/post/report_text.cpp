@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tunica/stages/post/report_json.hpp"
@@ -32,10 +33,12 @@ std::string openings_text(const ordered_json& r) {
 
 std::string stress_text(const ordered_json& r) {
   std::string text = "\nstress at the peak [kPa], by volume\n";
-  for (const auto& region : r["stress"])
-    for (const auto& [key, value] : region.items()) {
+  std::size_t width = 18;
+  for (const auto& part : r["stress"]) width = std::max(width, part["name"].get<std::string>().size());
+  for (const auto& part : r["stress"])
+    for (const auto& [key, value] : part.items()) {
       if (!value.is_object()) continue;
-      text += fmt::format("  {:<20}{:<28}", region["name"].get<std::string>(), key);
+      text += fmt::format("  {:<{}}{:<28}", part["name"].get<std::string>(), width + 2, key);
       for (const auto& [percentile, stress] : value["at_peak"].items())
         text += fmt::format("  {} {}", percentile, number(stress, 7, 2));
       text += "\n";
