@@ -343,7 +343,7 @@ class Patient(InAFolder):
 
     def test_flow_and_areas_of_a_tube(self):
         case = self.folder / "case.yaml"
-        tunica.Case({**CASE, "output": {"every": 1, "directory": "run"}}).save(case)
+        tunica.Case({**CASE, "output": {"every": 1, "directory": str(self.folder / "run")}}).save(case)
         program = [os.environ["TUNICA_PROGRAM"]]
         subprocess.run([*program, "run", case], check=True, capture_output=True)
         for kind, text in (("--flow", "scan: {voxel: 1 mm, frames: 4, signal_to_noise: 50}"),

@@ -89,7 +89,7 @@ struct FieldSeries::Implementation {
       series.push_back(field_io::read_series(field_io::series_file(folder, region.name)));
       if (series.back().empty())
         throw InputError(folder.string(), fmt::format("holds no results of the region {}", region.name),
-                         "run the case first: tunica run, or name the folder by --results");
+                         "run the case first (tunica run), or name the folder of its fields");
     }
     for (const auto& entry : series[0]) {
       std::vector<std::string> names;

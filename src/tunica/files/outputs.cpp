@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <string_view>
@@ -90,6 +91,27 @@ void refuse_other_than_file(const fs::path& file) {
                    fmt::format("is a {}, though tunica keeps a file of that name",
                                fs::is_directory(status) ? "folder" : "device, a pipe or a socket"),
                    "move it away, or choose another folder for the results");
+}
+
+bool fits(const std::string& pattern, const std::string& name) {
+  const auto star = pattern.find('*');
+  if (star == std::string::npos) return name == pattern;
+  const auto head = pattern.substr(0, star), tail = pattern.substr(star + 1);
+  return name.size() >= head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
+}
+
+void remove_outputs(const fs::path& folder, const std::vector<std::string>& patterns) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto name = entry.path().filename().string();
+    if (entry.is_regular_file(error) &&
+        std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return fits(pattern, name); }))
+      old.push_back(entry.path());
+  }
+  for (const auto& file : old)
+    if (!fs::remove(file, error))
+      throw InputError(file.string(), fmt::format("cannot be removed: {}", error.message()), another_folder);
 }
 
 }  // namespace tunica::files

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tunica::files {
@@ -15,6 +16,13 @@ void try_outputs(const std::filesystem::path& folder, const std::vector<std::fil
 
 /// The same for one file, whose folder is not made for it.
 void try_output(const std::filesystem::path& file);
+
+/// Is it the name that the pattern stands for? A * in it stands for any characters; there is one at most.
+bool fits(const std::string& pattern, const std::string& name);
+
+/// Removes the files of a folder whose names fit one of the patterns: outputs of an earlier call that the next one may
+/// have fewer of. Throws InputError where one cannot be removed.
+void remove_outputs(const std::filesystem::path& folder, const std::vector<std::string>& patterns);
 
 /// Throws InputError when a folder, a device or the like stands under the name of a file that tunica keeps in a folder
 /// of results: reading it fails in as many ways as there are libraries.

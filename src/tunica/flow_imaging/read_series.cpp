@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/imaging/value_image.hpp"
 
 namespace tunica::flow_imaging {
@@ -17,12 +18,6 @@ using config::Problems;
 using config::Schema;
 namespace dimension = config::dimension;
 using imaging::ValueImage;
-
-bool matches(const std::string& pattern, const std::string& name) {
-  const auto star = pattern.find('*');
-  const auto head = pattern.substr(0, star), tail = pattern.substr(star + 1);
-  return name.size() >= head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
-}
 
 void require_same_voxels(const ImageFrame& a, const ImageFrame& b, const std::string& first,
                          const std::string& second) {
@@ -145,7 +140,7 @@ std::vector<std::string> files_of_frames(const fs::path& path, const std::string
   std::error_code error;
   std::vector<std::string> found;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (matches(pattern, entry.path().filename().string())) found.push_back(entry.path().string());
+    if (files::fits(pattern, entry.path().filename().string())) found.push_back(entry.path().string());
   if (found.empty())
     throw InputError(where, fmt::format("no file is named like {}", path.string()), "check folder and name");
   return in_order_of_numbers(std::move(found), where);

@@ -269,6 +269,7 @@ void check_thrombus(const ParametricDissection& d, const DissectionModel& model,
                  fmt::format("reaches from {} to {}, where the flap is not as far from the wall as in its middle",
                              in_mm(t.start), in_mm(t.start + t.length)),
                  fmt::format("place it between {} and {}", in_mm(first), in_mm(last)));
+  if (!problems.errors.empty()) return;  // what follows looks at the lumen beside it
   if (2 * t.taper > t.length)
     problems.add("thrombus.taper", fmt::format("is {} at either end of {}", in_mm(t.taper), in_mm(t.length)),
                  fmt::format("give at most {}", in_mm(t.length / 2)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tunica/base/error.hpp"
@@ -18,12 +19,20 @@ using imaging::ImageFrame;
 using imaging::LabelImage;
 using imaging::Size3;
 
-constexpr double blur_of_labels = 1.0;   ///< standard deviation [voxels]: the steps of the voxels vanish
-constexpr double step_of_search = 0.25;  ///< voxels
-constexpr double least_agreement = 0.5;  ///< of two normals: cosine
+constexpr double blur_of_labels = 1.0;                 ///< standard deviation [voxels]: the steps of the voxels vanish
+constexpr double unknown_border = 2 * blur_of_labels;  ///< voxels: blurred labels see what is beyond the image as none
+constexpr double step_of_search = 0.25;                ///< voxels
+constexpr double least_agreement = 0.5;                ///< of two normals: cosine
 
-/// The part of an image that holds all places with a margin.
-LabelImage cropped(const LabelImage& image, std::span<const Point> places, double margin) {
+/// A part of an image, and how far places in it can be believed [voxels]: along the borders that are those of the image
+/// itself nobody knows what lies behind them.
+struct Part {
+  LabelImage image;
+  Point lowest{}, highest{};
+};
+
+/// The part that holds all places with a margin.
+Part cropped(const LabelImage& image, std::span<const Point> places, double margin) {
   const auto to_voxels = inverse(image.frame.matrix());
   Point low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
   for (const auto& x : places) {
@@ -38,22 +47,31 @@ LabelImage cropped(const LabelImage& image, std::span<const Point> places, doubl
     first[a] = static_cast<std::int64_t>(std::clamp(std::floor(low[d] - more), 0.0, last));
     size[a] = static_cast<std::int64_t>(std::clamp(std::ceil(high[d] + more), 0.0, last)) - first[a] + 1;
   }
-  LabelImage part{image.frame, {}};
-  part.frame.size = size;
-  part.frame.origin = image.frame.place(first);
-  part.labels.reserve(static_cast<std::size_t>(part.frame.count()));
-  for (std::int64_t n = 0; n < part.frame.count(); ++n) {
-    const auto v = part.frame.voxel(n);
+  Part part{{image.frame, {}}};
+  auto& [frame, labels] = part.image;
+  frame.size = size;
+  frame.origin = image.frame.place(first);
+  labels.reserve(static_cast<std::size_t>(frame.count()));
+  for (std::int64_t n = 0; n < frame.count(); ++n) {
+    const auto v = frame.voxel(n);
     const auto at = image.frame.index(v[0] + first[0], v[1] + first[1], v[2] + first[2]);
-    part.labels.push_back(image.labels[static_cast<std::size_t>(at)]);
+    labels.push_back(image.labels[static_cast<std::size_t>(at)]);
+  }
+  for (int d = 0; d < 3; ++d) {
+    const auto a = static_cast<std::size_t>(d);
+    const bool at_low = first[a] == 0, at_high = first[a] + size[a] == image.frame.size[a];
+    part.lowest[d] = at_low ? unknown_border : 0;
+    part.highest[d] = static_cast<double>(size[a] - 1) - (at_high ? unknown_border : 0);
   }
   return part;
 }
 
 class InLabels : public LumenBoundary {
  public:
-  InLabels(ImageFrame frame, std::vector<float> true_lumen, std::vector<float> false_lumen)
-      : frame_(std::move(frame)),
+  InLabels(const Part& part, std::vector<float> true_lumen, std::vector<float> false_lumen)
+      : frame_(part.image.frame),
+        lowest_(part.lowest),
+        highest_(part.highest),
         to_voxels_(inverse(frame_.matrix())),
         of_true_(std::move(true_lumen)),
         of_false_(std::move(false_lumen)) {
@@ -68,8 +86,12 @@ class InLabels : public LumenBoundary {
     const Point start = to_voxels_ * (place - frame_.origin);
     const Vec3<double> along = step * (to_voxels_ * out);
     const auto count = static_cast<int>(reach / step);
-    const auto at = [&](int k) { return share(start + static_cast<double>(k) * along, side) - 0.5; };
-    // Outwards and inwards in turn: the first place where the lumen ends is the nearest one.
+    const auto at = [&](int k) {
+      const Point v = start + static_cast<double>(k) * along;
+      return known(v) ? share(v, side) - 0.5 : std::numeric_limits<double>::quiet_NaN();
+    };
+    // Outwards and inwards in turn: the first place where the lumen ends is the nearest one. Comparisons with what is
+    // not known are false.
     double beyond = at(0), within = beyond;
     for (int k = 1; k <= count; ++k) {
       const double next = at(k);
@@ -83,6 +105,11 @@ class InLabels : public LumenBoundary {
   }
 
  private:
+  bool known(const Point& v) const {
+    for (int d = 0; d < 3; ++d)
+      if (v[d] < lowest_[d] || v[d] > highest_[d]) return false;
+    return true;
+  }
   /// Of the lumen at a place in voxels, between voxels linearly.
   double share(const Point& v, Side side) const {
     std::int64_t low[3];
@@ -111,6 +138,7 @@ class InLabels : public LumenBoundary {
   }
 
   ImageFrame frame_;
+  Point lowest_, highest_;
   Mat3<double> to_voxels_;
   std::vector<float> of_true_, of_false_;
   double spacing_;
@@ -150,17 +178,17 @@ std::unique_ptr<LumenBoundary> boundary_in_labels(const LabelImage& image, const
   const auto part = cropped(image, places, margin);
   const auto blurred = [&](std::int16_t label) {
     std::vector<float> values;
-    values.reserve(part.labels.size());
-    for (const auto l : part.labels) values.push_back(l == label ? 1.0F : 0.0F);
+    values.reserve(part.image.labels.size());
+    for (const auto l : part.image.labels) values.push_back(l == label ? 1.0F : 0.0F);
     if (std::find(values.begin(), values.end(), 1.0F) == values.end())
       throw InputError(where, fmt::format("has no voxel of label {} about the lumen of the mesh", label),
                        "name the labels that the lumens have, and bring mesh and images into the same coordinates");
-    imaging::blur(part.frame, blur_of_labels, values);
+    imaging::blur(part.image.frame, blur_of_labels, values);
     return values;
   };
   auto of_true = blurred(labels.true_lumen);
   auto of_false = labels.false_lumen ? blurred(*labels.false_lumen) : std::vector<float>{};
-  return std::make_unique<InLabels>(part.frame, std::move(of_true), std::move(of_false));
+  return std::make_unique<InLabels>(part, std::move(of_true), std::move(of_false));
 }
 
 std::unique_ptr<LumenBoundary> boundary_on_surface(geometry::TriangleSurface surface, std::span<const Point> places,

@@ -33,8 +33,9 @@ struct LumenLabels {
   std::optional<std::int16_t> false_lumen{};
 };
 
-/// Half-way between lumen and not lumen in the blurred labels. Voxels farther than `margin` [m] from the box around
-/// `places` are dropped. Throws InputError at `where` when a label has no voxel there.
+/// Half-way between lumen and not lumen in the blurred labels; nothing is seen within two voxels of the borders of the
+/// image and beyond. Voxels farther than `margin` [m] from the box around `places` are dropped. Throws InputError at
+/// `where` when a label has no voxel there.
 std::unique_ptr<LumenBoundary> boundary_in_labels(const imaging::LabelImage& image, const LumenLabels& labels,
                                                   std::span<const Point> places, double margin,
                                                   const std::string& where);

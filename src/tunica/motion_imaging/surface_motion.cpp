@@ -6,6 +6,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tunica/base/error.hpp"
@@ -25,6 +26,9 @@ constexpr double rest = 0.005;            ///< change of a round over the smooth
 constexpr double of_nothing_else = 4e-3;  ///< weight of |u|^2 over that of the data
 constexpr double huber = 2.5;             ///< standard deviations from which on a residual counts less
 constexpr double tolerance = 1e-5;        ///< of the linear system
+constexpr double of_radius = 0.5;         ///< smoothing length over the radius of a vessel, at most
+constexpr double least_length = 1e-3;     ///< however bent it is, as at the rim of a tear [m]
+constexpr double least_residual = 0.02;   ///< over the grain: nothing is known better
 constexpr int sweeps_nearby = 10;         ///< of the averages over neighbours that make a residual a local one
 
 /// Stiffness of the Laplacian on linear triangles and the area of each point.
@@ -101,26 +105,53 @@ TriangleSurface moved_by(const TriangleSurface& surface, const std::vector<Vec3<
 }  // namespace
 
 struct WallTracker::Smoother {
-  Sparse matrix;         ///< of l^4 |Lap u|^2 + e |u|^2, three unknowns a point
-  Eigen::VectorXd mass;  ///< area of each point
+  Sparse matrix;               ///< of l^4 |Lap u|^2 + e |u|^2, three unknowns a point
+  std::vector<double> length;  ///< l of each point [m]
 };
+
+namespace {
+
+/// The smoothing length, and not more than half the radius nearby: widening of a tube is not to be taken for noise.
+std::vector<double> lengths_of(const TriangleSurface& surface, const Sparse& stiffness, const Eigen::VectorXd& mass,
+                               double smoothing) {
+  Eigen::MatrixXd places(mass.size(), 3);
+  for (Eigen::Index n = 0; n < mass.size(); ++n)
+    for (int d = 0; d < 3; ++d) places(n, d) = surface.points[static_cast<std::size_t>(n)][d];
+  // The Laplacian of the place is twice the mean curvature along the normal: that of a tube is one over its radius.
+  const Eigen::MatrixXd bent = stiffness * places;
+  std::vector<double> curvature, area;
+  for (Eigen::Index n = 0; n < mass.size(); ++n) {
+    curvature.push_back(bent.row(n).norm());
+    area.push_back(mass[n]);
+  }
+  for (auto* values : {&curvature, &area}) geometry::average_over_neighbours(surface, sweeps_nearby, *values);
+  std::vector<double> lengths;
+  for (std::size_t n = 0; n < area.size(); ++n) {
+    const double radius = curvature[n] > 0 ? area[n] / curvature[n] : std::numeric_limits<double>::infinity();
+    lengths.push_back(std::clamp(of_radius * radius, std::min(least_length, smoothing), smoothing));
+  }
+  return lengths;
+}
+
+}  // namespace
 
 WallTracker::WallTracker(WallSurface wall, const MotionSettings& settings)
     : wall_(std::move(wall)), settings_(settings), smoother_(std::make_unique<Smoother>()) {
   auto [stiffness, mass] = laplacian(wall_.surface);
-  const double fourth = std::pow(settings.smoothing, 4);
-  const Sparse bending = stiffness * (mass.cwiseMax(1e-3 * mass.mean()).cwiseInverse().asDiagonal() * stiffness);
+  smoother_->length = lengths_of(wall_.surface, stiffness, mass, settings.smoothing);
+  Eigen::VectorXd weight = mass.cwiseMax(1e-3 * mass.mean()).cwiseInverse();
+  for (Eigen::Index n = 0; n < weight.size(); ++n)
+    weight[n] *= std::pow(smoother_->length[static_cast<std::size_t>(n)], 4);
+  const Sparse bending = stiffness * (weight.asDiagonal() * stiffness);
   std::vector<Entry> entries;
   for (int column = 0; column < bending.outerSize(); ++column)
     for (Sparse::InnerIterator it(bending, column); it; ++it)
-      for (int d = 0; d < 3; ++d)
-        entries.emplace_back(static_cast<int>(3 * it.row() + d), 3 * column + d, fourth * it.value());
+      for (int d = 0; d < 3; ++d) entries.emplace_back(static_cast<int>(3 * it.row() + d), 3 * column + d, it.value());
   for (Eigen::Index n = 0; n < mass.size(); ++n)
     for (int d = 0; d < 3; ++d)
       entries.emplace_back(static_cast<int>(3 * n + d), static_cast<int>(3 * n + d), of_nothing_else * mass[n]);
   smoother_->matrix.resize(3 * mass.size(), 3 * mass.size());
   smoother_->matrix.setFromTriplets(entries.begin(), entries.end());
-  smoother_->mass = std::move(mass);
 }
 
 WallTracker::~WallTracker() = default;
@@ -233,9 +264,11 @@ WallMotion WallTracker::track(const LumenBoundary& boundary, const std::vector<V
   motion.seen = area > 0 ? found / area : 0;
   motion.residual = found > 0 ? std::sqrt(squares / found) : 0;
   const auto [nearby, share] = scatter(moved, seen);
-  const double reduction = std::min(1.0, by_twicing * boundary.grain() / (4 * settings_.smoothing));
-  for (std::size_t n = 0; n < nearby.size(); ++n)
-    motion.deviation.push_back(reduction * std::sqrt(nearby[n] / std::max(share[n], 0.01)));
+  const double least = std::pow(least_residual * boundary.grain(), 2);
+  for (std::size_t n = 0; n < nearby.size(); ++n) {
+    const double reduction = std::min(1.0, by_twicing * boundary.grain() / (4 * smoother_->length[n]));
+    motion.deviation.push_back(reduction * std::sqrt(std::max(nearby[n], least) / std::max(share[n], 0.01)));
+  }
   return motion;
 }
 

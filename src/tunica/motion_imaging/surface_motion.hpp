@@ -33,12 +33,12 @@ struct WallMotion {
 /// Minimises
 ///   int w (n . u - d)^2 + l^4 |Lap u|^2 + e |u|^2 dA
 /// over displacements u that are linear on the triangles: d is the distance along the normal n to where the lumen ends,
-/// w Huber's weight of what is left of it, l the smoothing length, Lap the surface Laplacian with cotangent weights and
-/// lumped mass, and e so small that it decides only what nothing else does: motion along the wall is not seen in images
-/// of its surface. Rigid motion is not damped, as it would be by |grad u|^2. Repeated with the moved surface and its
-/// normals until it rests, and then once more with Lap (u - u1) in place of Lap u, u1 being what was found: what the
-/// first pass takes of a motion, (l / R)^4 of an even widening of a tube, is taken of a remainder in the second one
-/// (twicing: Tukey 1977, Exploratory data analysis).
+/// w Huber's weight of what is left of it, l the smoothing length or half the radius nearby where that is less, Lap the
+/// surface Laplacian with cotangent weights and lumped mass, and e so small that it decides only what nothing else
+/// does: motion along the wall is not seen in images of its surface. Rigid motion is not damped, as it would be by
+/// |grad u|^2. Repeated with the moved surface and its normals until it rests, and then once more with Lap (u - u1) in
+/// place of Lap u, u1 being what was found: what the first pass takes of a motion, (l / R)^4 of an even widening of a
+/// tube, is taken of a remainder in the second one (twicing: Tukey 1977, Exploratory data analysis).
 ///
 /// The deviation is that of this smoother, whose kernel is 2 K - K^2 with K = 1 / (1 + l^4 k^4), for residuals which
 /// hang together over the grain g of the boundary: 1.28 s g / (4 l), s being their root mean square nearby.

@@ -68,6 +68,9 @@ class Identification {
       files::refuse_if_owned_by_another(first.folder);
       lock_ = files::FolderLock(plan_.output);
       if (!lock_.taken_over().empty()) say("warning: " + lock_.taken_over());
+      // Those of another case or other measurements would look like the answer to this one until it is found.
+      if (!request_.dry_run)
+        files::remove_outputs(plan_.output, {"identify.csv", "identify.json", "identify.html", "identified.yaml"});
       write_case(first);
       std::vector<Problem> warnings;
       check_on_meshes(read_chain(first.file, std::nullopt, warnings));  // the chains tell the warnings

@@ -98,6 +98,11 @@ std::vector<IdentifiedParameter> read_parameters(const case_file::IdentifyCase& 
     IdentifiedParameter p{.name = name, .keys = given.keys.empty() ? given.factor_on : given.keys};
     for (auto& key : p.keys) {
       std::replace(key.begin(), key.end(), '/', '.');
+      const auto section = key.substr(0, key.find_first_of(".["));
+      for (const char* of_answer : {"measured", "post", "output", "report", "compare", "time", "newton", "linear"})
+        if (section == of_answer)
+          problems.push_back({where, fmt::format("has the key {}: `{}` is no property of the patient", key, of_answer),
+                              "name keys of wall, tissue, blood or boundary"});
       if (const auto [at, fresh] = owners.emplace(key, name); !fresh)
         problems.push_back({where, fmt::format("has the key {}, as has {}", key, at->second), "name each key once"});
     }

@@ -176,6 +176,7 @@ TEST_F(IdentifyCommand, SaysWhatIsWrongBeforeAnyWork) {
   refuses(one(key + "between: [0.3 MPa, 1 MPa]"), "is 0.2 MPa, not between 0.3 MPa and 1 MPa");
   refuses(one(key + "between: [0.1 MPa, 1 MPa], start: 2 MPa"), "is 2 MPa, not between");
   refuses(one("factor_on: wall.material.neo_hooke.shear_modulus, between: [0.5, 2]"), "the case has no number at");
+  refuses(one("keys: measured.areas.middle.uncertainty, between: [0.1 mm^2, 9 mm^2]"), "is no property of the patient");
   refuses(one("keys: title, between: [1, 2]"), "is no single number");
   refuses(one("keys: [wall.density, wall.material.neo_hooke.poisson_ratio], between: [0.1, 0.4]"), "wall.density");
   refuses(one(key + "between: [0.1 MPa, 1 MPa]") + "measurements: 'flows/*'\n", "`flows/*` fits none");

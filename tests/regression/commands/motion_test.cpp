@@ -87,7 +87,29 @@ TEST_F(MotionCommand, FindsTheAreasOfPhasesThatWereImaged) {
     EXPECT_EQ(tunica("motion wrong.yaml --overwrite"), 2) << more;
     EXPECT_NE(printed().find(message), std::string::npos) << printed();
   }
+  // An earlier motion leaves nothing beside the next one.
+  write("fewer.yaml", "case: case.yaml\nphases: {labels: fewer/labels_*.nrrd, period: 40 ms}\noutput: motion\n");
+  write("scan.yaml", "case: case.yaml\nperiod: 40 ms\nphases: 2\nscan: {voxel: 0.8 mm}\noutput: fewer\n");
+  ASSERT_EQ(tunica("synthesise --motion scan.yaml"), 0) << printed();
+  ASSERT_EQ(tunica("motion fewer.yaml --overwrite"), 0) << printed();
+  for (const char* file : {"motion_002.vtp", "ring_wall_inlet.csv"})
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "motion" / file)) << file;
+  // Surfaces are phases, too; what is read is not replaced, and what somebody else has written neither.
+  write("surfaces.yaml", "case: case.yaml\nphases: {surfaces: motion/motion_*.vtp, length_unit: m, period: 40 ms}\n");
+  EXPECT_EQ(tunica("motion surfaces.yaml -o again"), 0) << printed();
+  EXPECT_EQ(tunica("motion surfaces.yaml -o motion --overwrite"), 2);
+  EXPECT_NE(printed().find("is the folder of the phases"), std::string::npos) << printed();
+  std::filesystem::create_directory(folder_ / "foreign");
+  write("foreign/curves.csv", "mine");
+  EXPECT_EQ(tunica("motion surfaces.yaml -o foreign"), 2);
+  EXPECT_EQ(read("foreign/curves.csv"), "mine");
+
   auto other = motion;
+  other.replace(other.find("wall: [8 mm"), 4, "'a,b'");
+  write("wrong.yaml", other);
+  EXPECT_EQ(tunica("motion wrong.yaml --overwrite"), 2);
+  EXPECT_NE(printed().find("points.a,b"), std::string::npos) << printed();
+  other = motion;
   other.replace(other.find("centre: [0 mm"), 13, "centre: [90 mm");
   write("wrong.yaml", other);
   EXPECT_EQ(tunica("motion wrong.yaml --overwrite"), 2);

@@ -32,6 +32,21 @@ TEST(Outputs, FolderThatIsAFileIsRefused) {
   EXPECT_TRUE(problems([&] { make_folder(folder.path() / "a/b"); }).empty());
 }
 
+TEST(Outputs, ThoseOfAnEarlierCallAreRemovedAndNothingElse) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"labels_000.nrrd", "labels_001.nrrd", "labels.txt", "truth.csv", "truth.csv.old"})
+    write_atomically(folder.path() / name, "");
+  fs::create_directory(folder.path() / "labels_002.nrrd");
+  remove_outputs(folder.path(), {"labels_*.nrrd", "truth.csv"});
+  EXPECT_FALSE(fs::exists(folder.path() / "labels_000.nrrd"));
+  EXPECT_FALSE(fs::exists(folder.path() / "labels_001.nrrd"));
+  EXPECT_FALSE(fs::exists(folder.path() / "truth.csv"));
+  for (const char* name : {"labels.txt", "truth.csv.old", "labels_002.nrrd"})
+    EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
+  EXPECT_TRUE(fits("a*b", "ab"));
+  EXPECT_FALSE(fits("ab*ba", "aba"));
+}
+
 TEST(Outputs, AllThatCannotBeWrittenIsNamed) {
   const test::TemporaryFolder folder;
   fs::create_directory(folder.path() / "taken.csv");

@@ -146,6 +146,45 @@ TEST(WallTracker, FindsMotionInNoisyLabelsToATenthOfAVoxel) {
   EXPECT_NEAR(std::sqrt(told) / errors(wall, by_noise, rest)[0], 1, 0.5);
 }
 
+TEST(WallTracker, FindsTheWideningOfANarrowVessel) {
+  // A third of the size, and the same smoothing: it is bounded by the radius.
+  auto wall = tube_wall();
+  for (auto& x : wall.surface.points) x = (1.0 / 3) * x;
+  const double r = radius / 3, wider = 0.6e-3;
+  class Narrow : public LumenBoundary {
+   public:
+    explicit Narrow(double radius) : radius_(radius) {}
+    std::optional<double> ahead(const Point& place, const Vec3<double>&, Side, double) const override {
+      return radius_ - std::hypot(place[0], place[1]);
+    }
+    double grain() const override { return 1e-3; }
+
+   private:
+    double radius_;
+  };
+  const WallTracker tracker(wall, {.smoothing = 4e-3});
+  const auto motion = difference(tracker.track(Narrow(r + wider), {}), tracker.track(Narrow(r), {}));
+  for (std::size_t n = 0; n < wall.surface.points.size(); ++n) {
+    const auto& x = wall.surface.points[n];
+    if (x[2] < 3e-3 || x[2] > length / 3 - 3e-3) continue;
+    const auto& u = motion.displacement[n];
+    EXPECT_NEAR((u[0] * x[0] + u[1] * x[1]) / r, wider, 0.05 * wider);
+  }
+}
+
+TEST(WallTracker, SeesNothingBeyondTheImage) {
+  const auto wall = tube_wall();
+  auto image = voxels_of({.wider = 1e-3}, 0.7e-3, 0, 1);
+  // Axes are turned, so half of the slices are about half of the tube.
+  image.frame.size[2] /= 2;
+  image.labels.resize(static_cast<std::size_t>(image.frame.count()));
+  const WallTracker tracker(wall, {});
+  const auto motion = tracker.track(*boundary_in_labels(image, {.true_lumen = 1}, wall.surface.points, 11e-3, ""), {});
+  EXPECT_NEAR(motion.seen, 0.5, 0.1);
+  // What is not seen is told to be known less.
+  EXPECT_GT(motion.deviation.back(), 3 * motion.deviation.front());
+}
+
 TEST(WallTracker, FindsMotionOnSurfacesOfEitherSense) {
   const auto wall = tube_wall();
   const MovedTube moved{.shift = {{0.8e-3, 0, 0}}, .wider = 0.4e-3};

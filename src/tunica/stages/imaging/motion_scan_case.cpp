@@ -70,6 +70,7 @@ std::string motion_scan_to_files(const MotionScanCase& scan, bool overwrite, con
   const files::FolderLock lock(scan.output);
   if (!lock.taken_over().empty()) say("warning: " + lock.taken_over());
   files::try_outputs(scan.output, {"labels_000.nrrd", "truth.csv"});
+  files::remove_outputs(scan.output, {"labels_*.nrrd", "truth.csv"});
   const auto vessel = vessel_with_corners(scan.beat.case_file);
   const auto data = imaged_mesh(vessel);
   const auto side = side_of(data);

@@ -27,6 +27,7 @@ using motion_imaging::LumenBoundary;
 
 constexpr double margin_of_labels = 5e-3;  ///< beyond reach: blurred labels see the voxels around [m]
 constexpr double least_seen = 0.6;         ///< of the wall: otherwise mesh and images are not of one vessel
+constexpr double nearly_all = 0.9;         ///< of the wall; less is told
 
 void check_phases(const PhaseFiles& f, Problems& problems) {
   if (f.labels.has_value() == f.surfaces.has_value())
@@ -95,6 +96,20 @@ std::unique_ptr<LumenBoundary> boundary_of(const MotionCase& c, const MovingVess
                                              normals_at(wall));
 }
 
+/// Files that are there are not to be lost, those that are read least of all.
+void refuse_folder(const MotionCase& c, const Order& order, bool overwrite) {
+  std::error_code error;
+  for (const auto& file : order.files)
+    if (fs::equivalent(fs::path(file).parent_path().empty() ? "." : fs::path(file).parent_path(), c.output, error))
+      throw InputError("output", fmt::format("is the folder of the phases, {}", c.output.string()),
+                       "name another folder: files there would be replaced");
+  for (const auto& entry : fs::directory_iterator(c.output, error))
+    for (const auto& pattern : motion_files())
+      if (!overwrite && files::fits(pattern, entry.path().filename().string()))
+        throw InputError(c.output.string(), fmt::format("holds {} already", entry.path().filename().string()),
+                         "give --overwrite, or another `output`");
+}
+
 /// Where both labels meet, at the rims of tears, a label does not tell where its lumen ends.
 void open_rims(MovingVessel& v, double near) {
   std::vector<Point> across;
@@ -125,6 +140,20 @@ void require_seen(const motion_imaging::WallMotion& found, const std::string& fi
       "`reach` has to be longer than the wall moves between two phases");
 }
 
+/// What moves farther than was looked for was not found, but carried along.
+void require_within_reach(const motion_imaging::WallMotion& found, const std::vector<Vec3<double>>& before,
+                          const std::string& file, double reach) {
+  double largest = 0;
+  for (std::size_t n = 0; n < before.size(); ++n) largest = std::max(largest, norm(found.displacement[n] - before[n]));
+  if (largest > 1.5 * reach)
+    throw InputError(
+        file,
+        fmt::format("the wall moves by {:.3g} mm from the phase before, {:.3g} mm are looked for", largest / unit::mm,
+                    reach / unit::mm),
+        "check that all phases are of one patient, in the same coordinates and in their order; else give a "
+        "longer `reach`, or phases in between");
+}
+
 /// From the phase of the mesh on round the beat, each from where the one before it was found.
 std::vector<Phase> track_phases(const MotionCase& c, MovingVessel& v, const Order& order, const files::Say& say) {
   std::vector<Phase> phases(order.files.size());
@@ -140,6 +169,10 @@ std::vector<Phase> track_phases(const MotionCase& c, MovingVessel& v, const Orde
     }
     auto found = tracker->track(*boundary, start);
     require_seen(found, order.files[k], step == 0, c.tracking.reach);
+    if (step > 0) require_within_reach(found, start, order.files[k], c.tracking.reach);
+    if (found.seen < nearly_all)
+      say(fmt::format("warning: {}: {:.0f} % of the wall is not seen; there its motion is that of the neighbourhood",
+                      order.files[k], 100 * (1 - found.seen)));
     start = found.displacement;
     if (step == 0) of_mesh = found;
     auto& phase = phases[k];
@@ -187,6 +220,24 @@ Schema<PhaseFiles> PhaseFiles::schema() {
       .check(check_phases);
 }
 
+namespace {
+
+/// Names stand in headings of tables and in names of files.
+void check_names(const MotionCase& c, Problems& problems) {
+  const auto check = [&](const std::string& where, const std::string& name) {
+    if (name.find_first_of(",\"'[]/\\") != std::string::npos)
+      problems.add(where + "." + name, "has a name with one of , \" ' [ ] / \\", "name it by letters, digits and _");
+  };
+  for (const auto& [name, plane] : c.planes) check("planes", name);
+  for (const auto& [name, point] : c.points) check("points", name);
+  auto rings = c.rings;
+  std::sort(rings.begin(), rings.end());
+  if (const auto twice = std::adjacent_find(rings.begin(), rings.end()); twice != rings.end())
+    problems.add("rings", fmt::format("names {} twice", *twice), "name each face once");
+}
+
+}  // namespace
+
 Schema<MotionCase> MotionCase::schema() {
   using M = MotionCase;
   return Schema<M>("tunica motion", "File of `tunica motion`, in YAML like a case file.")
@@ -212,7 +263,8 @@ Schema<MotionCase> MotionCase::schema() {
       .texts("rings", &M::rings, "Faces of the wall whose motion becomes a condition: `wall_inlet`")
       .by_default("[]")
       .path("output", &M::output, "Folder of the results, relative to that of this file")
-      .by_default("motion");
+      .by_default("motion")
+      .check(check_names);
 }
 
 config::Parsed<MotionCase> read_motion_case(const fs::path& file) {
@@ -223,14 +275,19 @@ void motion(const MotionCase& c, bool overwrite, MPI_Comm comm, const files::Say
   std::optional<files::FolderLock> lock;
   const auto order = parallel::agree(comm, [&] { return order_of(c); });
   parallel::on_root(comm, [&] {
-    if (!overwrite && fs::exists(c.output / "motion.json"))
-      throw InputError(c.output.string(), "holds a motion already", "give --overwrite, or another `output`");
+    refuse_folder(c, order, overwrite);
     lock.emplace(c.output);
     if (!lock->taken_over().empty()) say("warning: " + lock->taken_over());
     files::try_outputs(c.output, {"curves.csv", "stations.csv", "motion.json"});
   });
   auto vessel = find_moving_vessel(c, comm);
   parallel::on_root(comm, [&] {
+    if (c.phases.lumens.false_lumen && vessel.anatomy.side.empty())
+      say("warning: the mesh tells no true and false lumen apart, so both labels count as one lumen");
+    for (const auto& point : vessel.points)
+      if (point.distance > unit::mm)
+        say(fmt::format("warning: point {}: the node that is followed lies {:.2g} mm away", point.name,
+                        point.distance / unit::mm));
     say(fmt::format("wall of {} triangles, {} phases of {:.4g} s", vessel.wall.surface.triangles.size(),
                     order.files.size(), c.phases.period));
     const auto phases = track_phases(c, vessel, order, say);

@@ -10,6 +10,7 @@
 #include "tunica/config/json_text.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/atomic_file.hpp"
+#include "tunica/files/outputs.hpp"
 #include "tunica/flow_imaging/inlet_profile.hpp"
 #include "tunica/geometry/surface_file.hpp"
 #include "tunica/stages/motion/moving_vessel.hpp"
@@ -332,16 +333,25 @@ std::string lines_for_case(const MotionCase& c, const std::vector<Phase>& phases
         ring, (folder / fmt::format("ring_{}.csv", ring)).string(), c.phases.period);
   double at_start = 0;
   for (const auto& u : phases.front().motion.displacement) at_start = std::max(at_start, norm(u));
-  if (!c.rings.empty() && at_start > 0)
-    text += "# The ring is where the mesh has it at `mesh_at`: a run has to start at that phase of its inflow.\n";
+  if (!text.empty() && at_start > 0)
+    text +=
+        "# Times are those of the phases, and the mesh is that of `mesh_at`: a run that starts from the mesh has to "
+        "start at "
+        "that phase of its inflow.\n# `shift` of a curve moves its times; motions of points count from the first "
+        "phase.\n";
   return text;
 }
 
 }  // namespace
 
+std::vector<std::string> motion_files() {
+  return {"curves.csv", "stations.csv", "curves.svg", "motion.json", "motion.pvd", "motion_*.vtp", "ring_*.csv"};
+}
+
 void write_motion(const MotionCase& c, const MovingVessel& v, const std::vector<Phase>& phases, const files::Say& say) {
   const Curves curves(c, v, phases);
   const auto all = curves.all();
+  files::remove_outputs(c.output, motion_files());
   files::write_atomically(c.output / "curves.csv", table_of(all, phases));
   if (!v.anatomy.stations.empty()) files::write_atomically(c.output / "stations.csv", stations_of(v, phases, curves));
   write_surfaces(c, v, phases);
@@ -355,7 +365,8 @@ void write_motion(const MotionCase& c, const MovingVessel& v, const std::vector<
                     curve["mean"].get<double>()));
   if (const auto lines = lines_for_case(c, phases); !lines.empty()) say("\nLines for a case:\n\n" + lines);
   files::write_atomically(c.output / "motion.json", config::json_text(report));
-  say(fmt::format("curves.csv, stations.csv, motion.pvd, motion.json in {}", c.output.string()));
+  say(fmt::format("curves.csv, stations.csv, motion.pvd with its files, motion.json{} in {}",
+                  c.rings.empty() ? "" : ", ring_*.csv", c.output.string()));
 }
 
 }  // namespace tunica::stages

@@ -74,7 +74,7 @@ void find_places(const MotionCase& c, MovingVessel& v) {
     }
   }
   for (const auto& [name, point] : c.points) {
-    TrackedPoint found{name, 0};
+    TrackedPoint found{.name = name};
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < data.points.size(); ++n)
       if (const double d = norm(data.points[n] - point.place); d < nearest)
@@ -82,6 +82,7 @@ void find_places(const MotionCase& c, MovingVessel& v) {
     if (nearest > farthest_point)
       problems.push_back({"points." + name, fmt::format("is {:.3g} mm away from the mesh", 1e3 * nearest),
                           fmt::format("give a place within {:.0f} mm of it", 1e3 * farthest_point)});
+    found.distance = nearest;
     v.points.push_back(std::move(found));
   }
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -15,8 +15,9 @@ namespace tunica::stages {
 
 /// A place that the file names, and the node next to it.
 struct TrackedPoint {
-  std::string name;
-  std::int64_t node;
+  std::string name{};
+  std::int64_t node = 0;
+  double distance = 0;  ///< m
 };
 
 struct MovingVessel {
@@ -40,7 +41,10 @@ struct Phase {
   std::vector<double> displacement{};  ///< of all nodes of the mesh [node][3]
 };
 
-/// Writes all files of the stage. `smoothing`: [m].
+/// Patterns of the names of all files of the stage.
+std::vector<std::string> motion_files();
+
+/// Writes them, in the place of those that are there.
 void write_motion(const MotionCase& c, const MovingVessel& v, const std::vector<Phase>& phases, const files::Say& say);
 
 }  // namespace tunica::stages
