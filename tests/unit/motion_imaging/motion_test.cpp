@@ -153,7 +153,7 @@ TEST(WallTracker, FindsTheWideningOfANarrowVessel) {
   const double r = radius / 3, wider = 0.6e-3;
   class Narrow : public LumenBoundary {
    public:
-    explicit Narrow(double radius) : radius_(radius) {}
+    explicit Narrow(double r) : radius_(r) {}
     std::optional<double> ahead(const Point& place, const Vec3<double>&, Side, double) const override {
       return radius_ - std::hypot(place[0], place[1]);
     }

@@ -86,9 +86,9 @@ std::unique_ptr<LumenBoundary> boundary_of(const MotionCase& c, const MovingVess
   if (c.phases.labels)
     return motion_imaging::boundary_in_labels(imaging::read_label_image(file), c.phases.lumens, wall.points,
                                               c.tracking.reach + margin_of_labels, file);
-  std::vector<Point> centres;
+  std::vector<geometry::Point> centres;
   for (const auto& t : wall.triangles) {
-    Point x{};
+    geometry::Point x{};
     for (const auto n : t) x = x + (1.0 / 3) * wall.points[static_cast<std::size_t>(n)];
     centres.push_back(x);
   }
@@ -112,13 +112,13 @@ void refuse_folder(const MotionCase& c, const Order& order, bool overwrite) {
 
 /// Where both labels meet, at the rims of tears, a label does not tell where its lumen ends.
 void open_rims(MovingVessel& v, double near) {
-  std::vector<Point> across;
+  std::vector<geometry::Point> across;
   for (const auto& tear : v.anatomy.tears)
     for (const auto& t : tear.surface)
       for (const auto& corner : t.corners)
         across.push_back(analysis::position(t.nodes, corner, {.points = &v.vessel.mesh.points}));
   for (std::size_t t = 0; t < v.wall.sides.size(); ++t) {
-    Point centre{};
+    geometry::Point centre{};
     for (const auto n : v.wall.surface.triangles[t])
       centre = centre + (1.0 / 3) * v.wall.surface.points[static_cast<std::size_t>(n)];
     for (const auto& x : across)
