@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "tunica/base/disjoint_sets.hpp"
 #include "tunica/base/error.hpp"
@@ -50,57 +52,70 @@ std::pair<std::vector<int>, int> unknowns_of(const std::vector<std::int64_t>& ca
   return {std::move(unknown), size};
 }
 
-/// Solves for the unknown rows of `values`.
-void fill_unknown(const std::vector<Edge>& edges, const std::vector<int>& unknown, int size, Eigen::MatrixXd& values) {
-  using Sparse = Eigen::SparseMatrix<double>;
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, 3);
-  for (const auto& edge : edges)
-    for (const auto& [a, b] : {std::pair{edge[0], edge[1]}, {edge[1], edge[0]}}) {
-      const int i = unknown[static_cast<std::size_t>(a)], j = unknown[static_cast<std::size_t>(b)];
-      if (i < 0) continue;
-      entries.emplace_back(i, i, 1.0);
-      if (j >= 0)
-        entries.emplace_back(i, j, -1.0);
-      else
-        right.row(i) += values.row(b);
-    }
-  Sparse matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(1e-6);
-  solver.compute(matrix);
-  const Eigen::MatrixXd found = solver.solve(right);
-  if (solver.info() != Eigen::Success)
-    throw SolverError(
-        fmt::format("the motion of the wall was not carried into the mesh: {} iterations leave an error "
-                    "of {:.2g}. Check the mesh with `tunica check`",
-                    solver.iterations(), solver.error()));
-  for (std::size_t n = 0; n < unknown.size(); ++n)
-    if (unknown[n] >= 0) values.row(static_cast<Eigen::Index>(n)) = found.row(unknown[n]);
-}
-
 }  // namespace
 
-std::vector<double> extended(const mesh::MeshData& data,
-                             const std::vector<std::pair<std::int64_t, Vec3<double>>>& given) {
-  const auto count = data.points.size();
-  std::vector<std::int64_t> carrier(count);
-  std::iota(carrier.begin(), carrier.end(), std::int64_t{0});
-  for (const auto& [wall, lumen] : data.twins) carrier[static_cast<std::size_t>(wall)] = lumen;
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), 3);
-  std::vector<bool> known(count);
-  for (const auto& [node, displacement] : given) {
-    const auto at = carrier[static_cast<std::size_t>(node)];
-    known[static_cast<std::size_t>(at)] = true;
-    for (int d = 0; d < 3; ++d) values(at, d) = displacement[d];
+struct Extension::System {
+  std::vector<std::int64_t> carrier;  ///< of each node: the one whose motion it has
+  std::vector<Edge> edges;
+  std::vector<int> unknown;
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
+};
+
+Extension::Extension(const mesh::MeshData& data, std::vector<std::int64_t> given)
+    : given_(std::move(given)), system_(std::make_unique<System>()) {
+  auto& s = *system_;
+  s.carrier.resize(data.points.size());
+  std::iota(s.carrier.begin(), s.carrier.end(), std::int64_t{0});
+  for (const auto& [wall, lumen] : data.twins) s.carrier[static_cast<std::size_t>(wall)] = lumen;
+  std::vector<bool> known(data.points.size());
+  for (auto& node : given_) {
+    node = s.carrier[static_cast<std::size_t>(node)];
+    known[static_cast<std::size_t>(node)] = true;
   }
-  const auto edges = edges_of(data, carrier);
-  const auto [unknown, size] = unknowns_of(carrier, known, edges);
-  if (size > 0) fill_unknown(edges, unknown, size, values);
+  s.edges = edges_of(data, s.carrier);
+  int size = 0;
+  std::tie(s.unknown, size) = unknowns_of(s.carrier, known, s.edges);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& edge : s.edges)
+    for (const auto& [a, b] : {std::pair{edge[0], edge[1]}, {edge[1], edge[0]}}) {
+      const int i = s.unknown[static_cast<std::size_t>(a)], j = s.unknown[static_cast<std::size_t>(b)];
+      if (i < 0) continue;
+      entries.emplace_back(i, i, 1.0);
+      if (j >= 0) entries.emplace_back(i, j, -1.0);
+    }
+  s.matrix.resize(size, size);
+  s.matrix.setFromTriplets(entries.begin(), entries.end());
+  s.solver.setTolerance(1e-6);
+  if (size > 0) s.solver.compute(s.matrix);
+}
+
+Extension::~Extension() = default;
+
+std::vector<double> Extension::of(std::span<const Vec3<double>> displacements) const {
+  const auto& s = *system_;
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(std::ssize(s.carrier), 3);
+  for (std::size_t k = 0; k < given_.size(); ++k)
+    for (int d = 0; d < 3; ++d) values(given_[k], d) = displacements[k][d];
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(s.matrix.rows(), 3);
+  for (const auto& edge : s.edges)
+    for (const auto& [a, b] : {std::pair{edge[0], edge[1]}, {edge[1], edge[0]}}) {
+      const int i = s.unknown[static_cast<std::size_t>(a)];
+      if (i >= 0 && s.unknown[static_cast<std::size_t>(b)] < 0) right.row(i) += values.row(b);
+    }
+  if (right.rows() > 0) {
+    const Eigen::MatrixXd found = s.solver.solve(right);
+    if (s.solver.info() != Eigen::Success)
+      throw SolverError(
+          fmt::format("the motion of the wall was not carried into the mesh: {} iterations leave an error "
+                      "of {:.2g}. Check the mesh with `tunica check`",
+                      s.solver.iterations(), s.solver.error()));
+    for (std::size_t n = 0; n < s.unknown.size(); ++n)
+      if (s.unknown[n] >= 0) values.row(static_cast<Eigen::Index>(n)) = found.row(s.unknown[n]);
+  }
   std::vector<double> result;
-  result.reserve(3 * count);
-  for (const auto node : carrier)
+  result.reserve(3 * s.carrier.size());
+  for (const auto node : s.carrier)
     for (int d = 0; d < 3; ++d) result.push_back(values(node, d));
   return result;
 }

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "tunica/mesh/mesh_data.hpp"
@@ -11,9 +12,23 @@ namespace tunica::motion_imaging {
 
 /// Displacements of all nodes of a mesh of linear elements from those of some: each other node has the mean of its
 /// neighbours along edges. A wall node moves with its twin; nodes without a way to a given one stay. Figures of
-/// sections, volumes and thin walls depend on what is given alone. `given`: node and displacement [m]. Returns
-/// [node][3]. Throws SolverError when the linear system is not solved.
-std::vector<double> extended(const mesh::MeshData& data,
-                             const std::vector<std::pair<std::int64_t, Vec3<double>>>& given);
+/// sections, volumes and thin walls depend on what is given alone.
+class Extension {
+ public:
+  /// `given`: nodes whose displacements will be known.
+  Extension(const mesh::MeshData& data, std::vector<std::int64_t> given);
+  ~Extension();
+  Extension(const Extension&) = delete;
+  Extension& operator=(const Extension&) = delete;
+
+  /// From the displacements of the given nodes [m]. Returns [node][3]. Throws SolverError when the linear system is not
+  /// solved.
+  std::vector<double> of(std::span<const Vec3<double>> displacements) const;
+
+ private:
+  struct System;
+  std::vector<std::int64_t> given_;
+  std::unique_ptr<System> system_;
+};
 
 }  // namespace tunica::motion_imaging

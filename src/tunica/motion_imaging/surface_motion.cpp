@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tunica/base/error.hpp"
+#include "tunica/mesh/boundary.hpp"
 
 namespace tunica::motion_imaging {
 
@@ -77,10 +78,9 @@ Look look(const WallSurface& wall, const TriangleSurface& moved, const LumenBoun
     const double size = norm(vector);
     result.areas.push_back(size);
     result.normals.push_back(size > 0 ? (1 / size) * vector : Vec3<double>{});
-    Point centre{};
-    for (const auto n : corners) centre = centre + (1.0 / 3) * moved.points[static_cast<std::size_t>(n)];
-    result.distance.push_back(size > 0 ? boundary.ahead(centre, result.normals.back(), wall.sides[t], reach)
-                                       : std::nullopt);
+    result.distance.push_back(
+        size > 0 ? boundary.ahead(mesh::centroid(moved.points, corners), result.normals.back(), wall.sides[t], reach)
+                 : std::nullopt);
   }
   return result;
 }

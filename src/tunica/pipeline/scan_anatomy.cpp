@@ -16,6 +16,7 @@
 #include "tunica/mesh_io/vtk_files.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/figures.hpp"
+#include "tunica/stages/vessel_of_case.hpp"
 
 namespace tunica::pipeline {
 
@@ -162,8 +163,7 @@ std::optional<ScanAnatomy> scan_anatomy(const Chain& chain, double spacing, MPI_
     if (!meshes.has_lumen())
       throw InputError(chain.file.string(), "has a mesh without a lumen", "name the mesh of the blood as well");
     run = describe(chain, meshes);
-    settings =
-        chain.settings.post ? *chain.settings.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
+    settings = stages::post_settings(chain.settings);
     settings.spacing = fine_spacing;
     data = artifacts::load_meshes(meshes, {}).data;
   });

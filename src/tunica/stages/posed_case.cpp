@@ -15,6 +15,7 @@
 #include "tunica/case/table_ends.hpp"
 #include "tunica/distributed/results_writer.hpp"
 #include "tunica/parallel/agree.hpp"
+#include "tunica/stages/vessel_of_case.hpp"
 
 namespace tunica::stages {
 
@@ -53,10 +54,6 @@ void check_tables(const case_file::Case& c, const mesh::MeshData& data) {
 bool is_tuned(const std::string& face, const case_file::TuningCase& outlets) {
   return std::any_of(outlets.fractions.begin(), outlets.fractions.end(),
                      [&](const auto& f) { return f.first == face; });
-}
-
-analysis::PostSettings post_settings(const case_file::Case& c) {
-  return c.post ? *c.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
 }
 
 }  // namespace

@@ -32,6 +32,10 @@ case_file::MeshSettings made_meshes(const case_file::Case& c, const fs::path& ca
 
 }  // namespace
 
+analysis::PostSettings post_settings(const case_file::Case& c) {
+  return c.post ? *c.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
+}
+
 const mesh::FaceData& VesselOfCase::face(const std::string& name) const {
   return *std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const auto& f) { return f.name == name; });
 }
@@ -53,7 +57,7 @@ VesselOfCase vessel_with_corners(const fs::path& case_file) {
       of_lumen.push_back(face.name);
   const auto sticks = case_file::sticking_faces(c, of_lumen);
   const auto run = case_file::describe(c);
-  vessel.inlet = analysis::inlet_name(run, c.post.value_or(analysis::PostSettings{}));
+  vessel.inlet = analysis::inlet_name(run, post_settings(c));
   for (const auto& name : of_lumen)
     if (std::find(sticks.begin(), sticks.end(), name) == sticks.end()) vessel.openings.push_back(name);
   const auto at = std::find(vessel.openings.begin(), vessel.openings.end(), vessel.inlet);

@@ -10,6 +10,9 @@
 
 namespace tunica::stages {
 
+/// The section `post` of a case; without one, that of its defaults.
+analysis::PostSettings post_settings(const case_file::Case& c);
+
 struct VesselOfCase {
   case_file::Case settings;
   std::string inlet;                  ///< face of the lumen

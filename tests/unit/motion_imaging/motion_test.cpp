@@ -263,18 +263,18 @@ TEST(PhaseImage, HasTheVolumeOfTheMovedLumen) {
       << "each phase has noise of its own";
 }
 
-TEST(Extended, CarriesTheMotionOfTheWallEverywhere) {
+TEST(Extension, CarriesTheMotionOfTheWallEverywhere) {
   mesh::TubeSizes sizes;
   sizes.radius = radius;
   sizes.length = 20e-3;
   sizes.wall_thickness = 2e-3;
   const auto data = mesh::tube(sizes);
-  std::vector<std::pair<std::int64_t, Vec3<double>>> given;
+  std::vector<std::int64_t> given;
   for (const auto& face : data.faces)
     if (face.name == "lumen_wall")
-      for (const auto& t : face.triangles)
-        for (const auto n : t) given.emplace_back(n, Vec3<double>{{1e-3, -2e-3, 3e-3}});
-  const auto moved = extended(data, given);
+      for (const auto& t : face.triangles) given.insert(given.end(), t.begin(), t.end());
+  const std::vector<Vec3<double>> displacements(given.size(), Vec3<double>{{1e-3, -2e-3, 3e-3}});
+  const auto moved = Extension(data, given).of(displacements);
   for (std::size_t n = 0; n < data.points.size(); ++n) {
     EXPECT_NEAR(moved[3 * n], 1e-3, 1e-8);
     EXPECT_NEAR(moved[3 * n + 1], -2e-3, 1e-8);
@@ -282,9 +282,9 @@ TEST(Extended, CarriesTheMotionOfTheWallEverywhere) {
   }
 }
 
-TEST(Extended, LeavesWhatHangsTogetherWithNothingAtRest) {
+TEST(Extension, LeavesWhatHangsTogetherWithNothingAtRest) {
   const auto box = mesh::box(2, 2, 2, {{1e-2, 1e-2, 1e-2}}, mesh::RegionKind::lumen);
-  for (const double u : extended(box, {})) EXPECT_EQ(u, 0);
+  for (const double u : Extension(box, {}).of({})) EXPECT_EQ(u, 0);
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ constexpr double margin = 6e-3;  ///< of tissue around the vessel [m]
 /// The mesh of the fields that a run leaves, with the lumens told apart.
 mesh::MeshData imaged_mesh(const VesselOfCase& vessel) {
   auto data = vessel.mesh;
-  const auto settings =
-      vessel.settings.post ? *vessel.settings.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
+  const auto settings = post_settings(vessel.settings);
   analysis::tell_lumens_apart(case_file::describe(vessel.settings), settings, data, MPI_COMM_SELF);
   if (vessel.settings.elements != case_file::Elements::quadratic) return data;
   mesh::add_edge_nodes(data);

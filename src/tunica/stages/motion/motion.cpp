@@ -11,6 +11,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/flow_imaging/read_series.hpp"
 #include "tunica/geometry/surface_file.hpp"
+#include "tunica/mesh/boundary.hpp"
 #include "tunica/motion_imaging/extension.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/stages/motion/moving_vessel.hpp"
@@ -87,11 +88,7 @@ std::unique_ptr<LumenBoundary> boundary_of(const MotionCase& c, const MovingVess
     return motion_imaging::boundary_in_labels(imaging::read_label_image(file), c.phases.lumens, wall.points,
                                               c.tracking.reach + margin_of_labels, file);
   std::vector<geometry::Point> centres;
-  for (const auto& t : wall.triangles) {
-    geometry::Point x{};
-    for (const auto n : t) x = x + (1.0 / 3) * wall.points[static_cast<std::size_t>(n)];
-    centres.push_back(x);
-  }
+  for (const auto& t : wall.triangles) centres.push_back(mesh::centroid(wall.points, t));
   return motion_imaging::boundary_on_surface(geometry::read_surface(file, c.phases.length_unit), centres,
                                              normals_at(wall));
 }
@@ -118,9 +115,7 @@ void open_rims(MovingVessel& v, double near) {
       for (const auto& corner : t.corners)
         across.push_back(analysis::position(t.nodes, corner, {.points = &v.vessel.mesh.points}));
   for (std::size_t t = 0; t < v.wall.sides.size(); ++t) {
-    geometry::Point centre{};
-    for (const auto n : v.wall.surface.triangles[t])
-      centre = centre + (1.0 / 3) * v.wall.surface.points[static_cast<std::size_t>(n)];
+    const auto centre = mesh::centroid(v.wall.surface.points, v.wall.surface.triangles[t]);
     for (const auto& x : across)
       if (norm(x - centre) < near) v.wall.sides[t] = motion_imaging::Side::either;
   }
@@ -157,6 +152,7 @@ void require_within_reach(const motion_imaging::WallMotion& found, const std::ve
 /// From the phase of the mesh on round the beat, each from where the one before it was found.
 std::vector<Phase> track_phases(const MotionCase& c, MovingVessel& v, const Order& order, const files::Say& say) {
   std::vector<Phase> phases(order.files.size());
+  const motion_imaging::Extension extension(v.vessel.mesh, v.nodes);
   std::optional<motion_imaging::WallTracker> tracker;
   motion_imaging::WallMotion of_mesh;
   std::vector<Vec3<double>> start;
@@ -181,13 +177,9 @@ std::vector<Phase> track_phases(const MotionCase& c, MovingVessel& v, const Orde
     phase.residual = found.residual;
     phase.seen = found.seen;
     phase.motion = motion_imaging::difference(found, of_mesh);
-    std::vector<std::pair<std::int64_t, Vec3<double>>> given;
     double largest = 0;
-    for (std::size_t n = 0; n < v.nodes.size(); ++n) {
-      given.emplace_back(v.nodes[n], phase.motion.displacement[n]);
-      largest = std::max(largest, norm(phase.motion.displacement[n]));
-    }
-    phase.displacement = motion_imaging::extended(v.vessel.mesh, given);
+    for (const auto& u : phase.motion.displacement) largest = std::max(largest, norm(u));
+    phase.displacement = extension.of(phase.motion.displacement);
     say(fmt::format("phase {} of {}, {}: moved by up to {:.3g} mm, {:.2g} mm left of it, {:.0f} % of the wall seen",
                     step + 1, phases.size(), fs::path(phase.file).filename().string(), largest / unit::mm,
                     phase.residual / unit::mm, 100 * phase.seen));

@@ -101,7 +101,7 @@ class Curves {
   void add_figures(std::vector<Curve>& curves) const {
     const auto& data = vessel_.vessel.mesh;
     auto run = case_file::describe(vessel_.vessel.settings);
-    const analysis::PostSettings settings = vessel_.vessel.settings.post.value_or(analysis::PostSettings{});
+    const auto settings = post_settings(vessel_.vessel.settings);
     const analysis::FrameFigures figures(run, settings, data, vessel_.anatomy, {}, phases_.front().displacement);
     analysis::FieldFrame frame;
     frame.velocity.assign(3 * data.points.size(), 0.0);

@@ -95,8 +95,7 @@ MovingVessel find_moving_vessel(const MotionCase& c, MPI_Comm comm) {
   parallel::agree(comm, [&] { v.vessel = vessel_with_corners(c.case_file); });
   parallel::on_root(comm, [&] { find_places(c, v); });
   const auto run = case_file::describe(v.vessel.settings);
-  const auto settings = v.vessel.settings.post ? *v.vessel.settings.post
-                                               : config::parse_text(analysis::PostSettings::schema(), "{}").value;
+  const auto settings = post_settings(v.vessel.settings);
   analysis::tell_lumens_apart(run, settings, v.vessel.mesh, comm);
   v.anatomy = analysis::make_vessel(run, settings, v.vessel.mesh, comm);
   parallel::on_root(comm, [&] { take_wall(c, v); });

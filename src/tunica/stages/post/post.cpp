@@ -19,6 +19,7 @@
 #include "tunica/stages/post/measured.hpp"
 #include "tunica/stages/post/report_files.hpp"
 #include "tunica/stages/post/report_json.hpp"
+#include "tunica/stages/vessel_of_case.hpp"
 
 namespace tunica::stages::post {
 
@@ -29,7 +30,7 @@ constexpr const char* post_report_file = "post.json";
 
 /// Without the section `post` those of its schema; a case that computes cycles says how long one is.
 analysis::PostSettings settings_of(const case_file::Case& c) {
-  analysis::PostSettings settings = c.post ? *c.post : config::parse_text(analysis::PostSettings::schema(), "{}").value;
+  analysis::PostSettings settings = post_settings(c);
   if (!settings.period && !settings.from && c.time && c.time->cycles) settings.period = c.time->cycles->period;
   return settings;
 }
