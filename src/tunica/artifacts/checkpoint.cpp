@@ -67,6 +67,7 @@ nlohmann::json header_of(const Checkpoint& c, std::int64_t nodes) {
           {"dt", c.state.dt},
           {"residual_reference", c.state.residual_reference},
           {"velocity_reference", c.state.velocity_reference},
+          {"tear_flow_reference", c.state.tear_flow_reference},
           {"outlets", outlets},
           {"grid",
            {{"base_time", p.base_time},
@@ -98,7 +99,8 @@ void take_header(const nlohmann::json& h, Checkpoint& c, const std::string& wher
   c.state.time = h.at("time");
   c.state.dt = h.at("dt");
   c.state.residual_reference = h.at("residual_reference");
-  c.state.velocity_reference = h.value("velocity_reference", 0.0);  // older ones had no adaptive steps
+  c.state.velocity_reference = h.value("velocity_reference", 0.0);    // older ones had no adaptive steps
+  c.state.tear_flow_reference = h.value("tear_flow_reference", 0.0);  // and did not look at the balance
   const nlohmann::json& g = h.at("grid");
   c.position = {g.at("base_time"), g.at("base_step"), g.at("nominal"), g.at("done"), g.at("part"), g.at("level")};
   restore_outlets(h.at("outlets"), c.state.outlets, where);

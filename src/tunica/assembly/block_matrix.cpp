@@ -22,11 +22,18 @@ Constraints::Constraints(const BlockPattern& pattern, std::vector<NodeConstraint
     : constraints_(std::move(constraints)) {
   std::vector<std::int32_t> of_node(pattern.columns_count, -1);
   for (std::size_t i = 0; i < constraints_.size(); ++i) of_node[constraints_[i].node] = static_cast<std::int32_t>(i);
+  // Where all motions are free and no pressure is used, there is nothing to project; the diagonal alone needs an entry.
+  const auto is_met = [&](std::int32_t node) {
+    return of_node[node] < 0 ||
+           (constraints_[of_node[node]].pressure_unused && trace(constraints_[of_node[node]].P) == 3);
+  };
   for (std::int32_t row = 0; row < pattern.rows; ++row)
     for (auto b = pattern.row_begin[row]; b < pattern.row_begin[row + 1]; ++b) {
       const auto column = pattern.columns[b];
-      if (of_node[row] >= 0 || of_node[column] >= 0)
-        touched_.push_back({b, of_node[row], of_node[column], row == column});
+      const bool diagonal = row == column;
+      const auto of_row = diagonal || !is_met(row) ? of_node[row] : -1,
+                 of_column = is_met(column) ? -1 : of_node[column];
+      if (of_row >= 0 || of_column >= 0) touched_.push_back({b, of_row, of_column, diagonal});
     }
 }
 

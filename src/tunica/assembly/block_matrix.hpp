@@ -16,9 +16,10 @@ namespace tunica::assembly {
 
 /// Which motions of a node are free: increments and residuals are projected with `P`.
 struct NodeConstraint {
-  std::int32_t node;    ///< local, owned or ghost
-  Mat3<double> P;       ///< symmetric projector on the free directions: 0 fixed, I - n n^T sliding
-  bool pressure_fixed;  ///< the node has no pressure of its own (displacement element)
+  std::int32_t node;             ///< local, owned or ghost
+  Mat3<double> P;                ///< symmetric projector on the free directions: 0 fixed, I - n n^T sliding
+  bool pressure_fixed;           ///< the node has no pressure of its own
+  bool pressure_unused = false;  ///< and no element adds to its rows and columns, as on the edges of quadratic elements
 };
 
 struct BlockMatrix {

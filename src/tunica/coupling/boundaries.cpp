@@ -440,7 +440,8 @@ void Boundaries::hold_unknown_pressures(const BoundaryInput& input, Builder& bui
     if (region.kind == mesh::RegionKind::lumen || input.wall_has_pressure)
       for (const auto& element : region.elements)
         for (const auto node : element) has_pressure[node] = 1;
-  for (std::int32_t i = 0; i < mesh_.nodes(); ++i) builder.held[i].pressure = has_pressure[i] == 0;
+  for (std::int32_t i = 0; i < mesh_.nodes(); ++i)
+    builder.held[i].pressure = builder.held[i].unused = has_pressure[i] == 0;
   if (input.pressure_point) builder.hold_pressure(*input.pressure_point);
   idle_pressures_ = find_idle_pressures(mesh_, builder.held);
   for (const auto& idle : idle_pressures_) builder.held[idle.node].pressure = true;

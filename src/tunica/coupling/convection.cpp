@@ -86,13 +86,20 @@ std::vector<double> Projection::convection(const State& state, std::span<const d
   return integral;
 }
 
+// Four components at a time, the last of which is zero: they fill vectors. What an element adds is summed apart, since
+// `y` could be `x` to the compiler.
 std::vector<double> Projection::times(const std::vector<double>& x) const {
   std::vector<double> y(x.size(), 0.0);
-  for (const Element& e : elements_)
+  for (const Element& e : elements_) {
+    double of_element[element_nodes][4], sum[element_nodes][4] = {};
+    for (int b = 0; b < element_nodes; ++b)
+      for (int c = 0; c < 4; ++c) of_element[b][c] = e.volume * x[at(e.nodes[b]) + c];
     for (int a = 0; a < element_nodes; ++a)
       for (int b = 0; b < element_nodes; ++b)
-        for (int c = 0; c < 3; ++c)
-          y[at(e.nodes[a]) + c] += e.volume * fe::quadratic_mass[a][b] * x[at(e.nodes[b]) + c];
+        for (int c = 0; c < 4; ++c) sum[a][c] += fe::quadratic_mass[a][b] * of_element[b][c];
+    for (int a = 0; a < element_nodes; ++a)
+      for (int c = 0; c < 4; ++c) y[at(e.nodes[a]) + c] += sum[a][c];
+  }
   return y;
 }
 

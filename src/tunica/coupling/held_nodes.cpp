@@ -21,7 +21,7 @@ std::vector<assembly::NodeConstraint> complete_on_ghosts(const distributed::Dist
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     double* v = values.data() + 10 * static_cast<std::size_t>(i);
     for (int k = 0; k < 9; ++k) v[k] = held[i].P(k / 3, k % 3);
-    v[9] = held[i].pressure ? 1.0 : 0.0;
+    v[9] = held[i].unused ? 2.0 : held[i].pressure ? 1.0 : 0.0;
   }
   mesh.halo.update(values, 10);
   std::vector<assembly::NodeConstraint> list;
@@ -29,8 +29,8 @@ std::vector<assembly::NodeConstraint> complete_on_ghosts(const distributed::Dist
     const double* v = values.data() + 10 * static_cast<std::size_t>(i);
     Held h;
     for (int k = 0; k < 9; ++k) h.P(k / 3, k % 3) = v[k];
-    h.pressure = v[9] > 0.5;
-    if (h.any()) list.push_back({i, h.P, h.pressure});
+    h.pressure = v[9] > 0.5, h.unused = v[9] > 1.5;
+    if (h.any()) list.push_back({i, h.P, h.pressure, h.unused});
   }
   return list;
 }

@@ -14,6 +14,7 @@ namespace tunica::coupling {
 struct Held {
   Mat3<double> P = identity<double>();  ///< projector on the free motions
   bool pressure = false;                ///< the node has no pressure unknown
+  bool unused = false;                  ///< since no element has one there
 
   void all() { P = Mat3<double>{}; }
   /// Of any length but zero.

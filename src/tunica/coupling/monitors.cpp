@@ -31,8 +31,7 @@ double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1]
 }  // namespace
 
 // The interface carries no load of its own; on its rim the conditions of the adjoining faces act as well.
-Monitors::Monitors(const Problem& problem, distributed::LumenMap map)
-    : problem_(problem), map_(std::move(map)), kind_(problem.mesh().owned_nodes, NodeKind::inner) {
+Monitors::Monitors(const Problem& problem) : problem_(problem), kind_(problem.mesh().owned_nodes, NodeKind::inner) {
   const auto& mesh = problem.mesh();
   for (const auto& region : mesh.regions)
     if (region.kind == RegionKind::wall)
@@ -188,14 +187,15 @@ Monitors::Power Monitors::linear_power(const distributed::Region& region, std::i
 
 void Monitors::lumen_elements(double dt, StepRecord& record) const {
   const auto& mesh = problem_.mesh();
-  const std::size_t parts = std::max<std::size_t>(1, map_.parts.size());
+  const distributed::LumenMap& map = problem_.input().lumens;
+  const std::size_t parts = std::max<std::size_t>(1, map.parts.size());
   std::vector<double> sums(2 + 2 * parts, 0.0);  // volume, kinetic energy; viscous and numerical dissipation of a part
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& region = mesh.regions[r];
     if (region.kind != RegionKind::lumen) continue;
     for (std::int32_t e = 0; e < region.owned_elements; ++e) {
       const Power power = mesh.quadratic ? quadratic_power(region, e) : linear_power(region, e, dt);
-      const std::size_t part = map_.parts.empty() ? 0 : static_cast<std::size_t>(map_.part_of[r][e]);
+      const std::size_t part = map.parts.empty() ? 0 : static_cast<std::size_t>(map.part_of[r][e]);
       sums[0] += power.volume;
       sums[1] += power.kinetic;
       sums[2 + 2 * part] += power.viscous;
@@ -205,7 +205,7 @@ void Monitors::lumen_elements(double dt, StepRecord& record) const {
   parallel::global_sum(mesh.comm, sums);
   record.lumen_volume = sums[0];
   record.fluid_kinetic = sums[1];
-  if (!map_.empty()) record.lumens.emplace();
+  if (!map.empty()) record.lumens.emplace();
   for (std::size_t part = 0; part < parts; ++part) {
     record.viscous_dissipation += sums[2 + 2 * part];
     record.numerical_dissipation += sums[3 + 2 * part];
@@ -216,7 +216,8 @@ void Monitors::lumen_elements(double dt, StepRecord& record) const {
 }
 
 void Monitors::lumens(double dt, StepRecord& record) const {
-  LumenRecord lumens = lumen_record({problem_.mesh(), problem_.fields(), *problem_.input().fluid, dt}, map_);
+  LumenRecord lumens =
+      lumen_record({problem_.mesh(), problem_.fields(), *problem_.input().fluid, dt}, problem_.input().lumens);
   lumens.true_volume = record.lumen_volume - lumens.in_false.volume;
   lumens.viscous = std::move(record.lumens->viscous);
   lumens.numerical = std::move(record.lumens->numerical);

@@ -58,7 +58,7 @@ struct StepRecord {
 class Monitors {
  public:
   /// `problem` must outlive this. `map`: where the lumens of a dissection are.
-  explicit Monitors(const Problem& problem, distributed::LumenMap map = {});
+  explicit Monitors(const Problem& problem);
 
   /// For the step of size `dt` [s] that `problem` last accepted; 0 for a static equilibrium. All sums are added in rank
   /// order. Collective.
@@ -90,7 +90,6 @@ class Monitors {
   void lumens(double dt, StepRecord& record) const;
 
   const Problem& problem_;
-  distributed::LumenMap map_;
   std::vector<NodeKind> kind_;  ///< of the owned nodes
   /// Faces that the blood sticks to, with their owned nodes and what part of a node's force each has.
   struct StickingFace {

@@ -18,6 +18,7 @@
 #include "tunica/coupling/settings.hpp"
 #include "tunica/coupling/state.hpp"
 #include "tunica/distributed/element_nodes.hpp"
+#include "tunica/distributed/lumen_map.hpp"
 
 namespace tunica::wall {
 struct Parameters;  // wall/parameters.hpp
@@ -37,6 +38,7 @@ struct ProblemInput {
   /// Prescribed displacement [m] of the lumen mesh, for flow without a wall. The start state must hold the displacement
   /// and the rate of its own time.
   VectorField mesh_displacement;
+  distributed::LumenMap lumens;  ///< empty where there is no false lumen
   double rho_infinity = 0.5;
   LoadInstant loads = LoadInstant::balance;
   NewtonSettings newton;
@@ -152,6 +154,7 @@ class Problem {
   void update_present_modulus(const State& state);
   StepReport newton(const State& old_state, State& next, const Instant& instant);
   void iterate(const State& old_state, State& next, const Instant& instant, StepReport& report);
+  bool closes_mass(State& next, const Instant& instant) const;
   /// First residual, tangent and preconditioner of a step; returns the norm that ends it and the norm of round-off.
   struct Targets {
     double converged, noise;

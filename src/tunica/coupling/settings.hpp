@@ -19,6 +19,7 @@ struct NewtonSettings {
   int line_search = 4;           ///< most halvings of an increment
   double growth = 1.2;           ///< growth of the residual norm that an increment may cause
   double mesh_tolerance = 1e-5;  ///< of the mesh motion, relative to the forces of the interface displacement
+  double mass_tolerance = 1e-5;  ///< of the balance of the false lumen, relative to the largest flow through a tear
 
   static config::Schema<NewtonSettings> schema() {
     using namespace config;
@@ -41,6 +42,10 @@ struct NewtonSettings {
         .by_default()
         .number("mesh_tolerance", &NewtonSettings::mesh_tolerance, range(1e-14, 0.1),
                 "Residual of the mesh motion, relative to the forces of the interface displacement")
+        .by_default()
+        .number("mass_tolerance", &NewtonSettings::mass_tolerance, range(1e-14, 1),
+                "What is left of the balance of the false lumen, relative to the largest flow through a tear so far, "
+                "that takes one iteration more")
         .by_default();
   }
 };

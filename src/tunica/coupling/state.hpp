@@ -24,6 +24,7 @@ struct State {
   std::vector<bc::Outlet> outlets;        ///< in the order of the model's outlet faces
   double residual_reference = 0.0;        ///< largest initial residual norm so far: what "small" is measured against
   double velocity_reference = 0.0;        ///< largest norm of the nodal velocities so far, for adaptive steps [m/s]
+  double tear_flow_reference = 0.0;       ///< largest flow through a tear so far [m^3/s]
 };
 
 /// `state` with its pressures at t_n in the place of those at t_{n-1+alpha_f}.

@@ -10,13 +10,17 @@ double FlowCurve::mean() const {
   return sum;
 }
 
-double FlowCurve::mean_deviation() const {
-  double squares = 0;
-  for (const double w : weights) squares += w * w;
-  return std::hypot(deviation * std::sqrt(squares), unresolved * mean());
+double FlowCurve::mean_deviation() const { return std::hypot(deviation_of_mean, unresolved * mean()); }
+
+double FlowCurve::deviation_at(std::size_t frame) const {
+  return std::hypot(deviation[frame], unresolved * flow[frame]);
 }
 
-double FlowCurve::deviation_at(std::size_t frame) const { return std::hypot(deviation, unresolved * flow[frame]); }
+double FlowCurve::deviation_by_noise() const {
+  double squares = 0;
+  for (const double d : deviation) squares += d * d / static_cast<double>(deviation.size());
+  return std::sqrt(squares);
+}
 
 std::vector<double> frame_weights(const std::vector<double>& times, double period) {
   const auto n = times.size();
@@ -36,11 +40,17 @@ FlowCurve flow_curve(const VelocitySeries& series, const ProfileFit& fit, const 
                   .normal = section.normal,
                   .area = section.area,
                   .voxels = fit.voxels(),
-                  .flow = {},
-                  .deviation = fit.flow_deviation(),
+                  .flow = fit.flow(),
+                  .deviation = {},
+                  .deviation_of_mean = 0,
                   .unresolved = 0.5 * std::pow(series.frame.largest_spacing(), 2) * M_PI / section.area,
                   .weights = frame_weights(series.times, series.period)};
-  for (std::size_t frame = 0; frame < series.frames(); ++frame) curve.flow.push_back(fit.flow(frame));
+  curve.deviation_of_mean = fit.flow_deviation(curve.weights);
+  for (std::size_t frame = 0; frame < series.frames(); ++frame) {
+    std::vector<double> one(series.frames(), 0.0);
+    one[frame] = 1;
+    curve.deviation.push_back(fit.flow_deviation(one));
+  }
   return curve;
 }
 

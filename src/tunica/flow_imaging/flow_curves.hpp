@@ -15,7 +15,8 @@ struct FlowCurve {
   double area = 0;                  ///< m^2
   std::size_t voxels = 0;           ///< that tell the flow
   std::vector<double> flow;         ///< of each frame along the normal [m^3/s]
-  double deviation = 0;             ///< standard deviation of each of them by the noise of the voxels [m^3/s]
+  std::vector<double> deviation;    ///< standard deviation of each of them by the noise of the voxels [m^3/s]
+  double deviation_of_mean = 0;     ///< of the mean over the beat, by the noise alone [m^3/s]
   /// Relative, what voxels cannot resolve: half the square of voxel over radius, the error of a parabola's mean over
   /// voxels; the same in all frames.
   double unresolved = 0;
@@ -23,6 +24,7 @@ struct FlowCurve {
   double mean() const;                           ///< over the beat; frames are weighted by the time they stand for
   double mean_deviation() const;                 ///< of it, of both causes
   double deviation_at(std::size_t frame) const;  ///< of a frame, of both causes
+  double deviation_by_noise() const;             ///< root mean square of that of the frames by the noise alone
   std::vector<double> weights{};                 ///< of the frames, sum 1
 };
 

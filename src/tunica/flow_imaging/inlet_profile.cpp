@@ -45,14 +45,15 @@ NodalCourse profile_at_nodes(const VelocitySeries& series, const ProfileFit& fit
                              std::span<const double> outflow) {
   const auto unit = bc::inflow_profile(opening.face(), bc::Profile::parabolic);  // checks the face as well
   const auto rim = bc::rim_nodes(opening.face());
-  std::vector<ProfileFit::Weights> weights;
-  for (std::size_t n = 0; n < opening.points.size(); ++n)
-    weights.push_back(rim[n] ? ProfileFit::Weights{} : fit.weights_at(opening.points[n]));
   NodalCourse course{.times = series.times, .period = series.period, .values = {}};
+  course.values.assign(series.frames(), std::vector<Vec3<double>>(opening.points.size(), Vec3<double>{}));
+  for (std::size_t n = 0; n < opening.points.size(); ++n) {
+    if (rim[n]) continue;
+    const auto velocities = fit.velocities(opening.points[n]);
+    for (std::size_t frame = 0; frame < series.frames(); ++frame) course.values[frame][n] = velocities[frame];
+  }
   for (std::size_t frame = 0; frame < series.frames(); ++frame) {
-    auto& v = course.values.emplace_back(opening.points.size(), Vec3<double>{});
-    for (std::size_t n = 0; n < v.size(); ++n)
-      if (!rim[n]) v[n] = fit.velocity(frame, weights[n]);
+    auto& v = course.values[frame];
     // inflow_profile's phi carries one unit along the normal.
     const double lacks = outflow[frame] - opening.outflow(v);
     for (std::size_t n = 0; n < v.size(); ++n) v[n] = v[n] + (lacks * unit.phi[n]) * unit.normal;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,8 +21,9 @@ constexpr double radii_along = 4;       ///< correlation length of that share al
 constexpr double most_elsewhere = 0.1;  ///< of a voxel that is lumen outside the column
 constexpr double least_share = 0.5;     ///< of a voxel that lies in the section's column
 constexpr std::size_t least_voxels = 6, most_voxels = 1500;
-constexpr double least_noise = 1e-6;  ///< variance over that of the profile
-constexpr double held = 1e-3;         ///< deviation of the velocity on the rim over that of the profile
+constexpr double least_noise = 1e-6;     ///< variance over that of the profile
+constexpr double least_variance = 1e-2;  ///< of a course over that of the noise
+constexpr double held = 1e-3;            ///< deviation of the velocity on the rim over that of the profile
 
 /// Matern's function of smoothness 5/2.
 double matern(double distance, double length) {
@@ -29,10 +31,66 @@ double matern(double distance, double length) {
   return (1 + a + a * a / 3) * std::exp(-a);
 }
 
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Map<const Eigen::VectorXd> vector(const std::vector<double>& v) { return {v.data(), index(v.size())}; }
+
 }  // namespace
 
-struct ProfileFit::Factor {
-  Eigen::LLT<Eigen::MatrixXd> cholesky;
+/// What stands out of the noise: courses over the beat, each with the profile of a Gaussian process.
+struct ProfileFit::Courses {
+  Eigen::MatrixXd shapes;                              ///< [frame][course], orthonormal
+  std::vector<double> variances;                       ///< of the voxels' amplitudes without their noise [m^2/s^2]
+  std::vector<Eigen::MatrixXd> amplitudes{};           ///< of each component [voxel][course] [m/s]
+  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors{};  ///< of each course, voxels and places on the rim
+
+  /// Principal components over the beat of voxels [component][voxel][frame] that move along so many `directions`. Noise
+  /// of variance s^2 in n samples and F frames has eigenvalues up to s^2 (1 + sqrt(F/n))^2 (Marchenko & Pastur 1967);
+  /// the largest one is kept in any case.
+  static Courses of(const std::vector<Eigen::MatrixXd>& components, int directions, double noise) {
+    const Eigen::Index frames = components.front().cols();
+    const auto samples = directions * static_cast<double>(components.front().rows());
+    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(frames, frames);
+    for (const auto& c : components) squares += c.transpose() * c / samples;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(squares);  // eigenvalues rise
+    const double edge = noise * std::pow(1 + std::sqrt(static_cast<double>(frames) / samples), 2);
+    Eigen::Index count = 1;
+    while (count < frames && principal.eigenvalues()[frames - 1 - count] > edge) ++count;
+    Courses result{.shapes = principal.eigenvectors().rightCols(count).rowwise().reverse(), .variances = {}};
+    for (Eigen::Index m = 0; m < count; ++m)
+      result.variances.push_back(
+          std::max({principal.eigenvalues()[frames - 1 - m] - noise, least_variance * noise, 1e-12}));
+    for (const auto& c : components) result.amplitudes.push_back(c * result.shapes);
+    return result;
+  }
+
+  /// Factors of the systems: correlations [observation][observation], their lower triangle, noise in units of the
+  /// variance of a course. False where one cannot be factorised.
+  bool factorise(const Eigen::MatrixXd& correlated, std::span<const double> noise) {
+    for (const double variance : variances) {
+      Eigen::MatrixXd system = correlated;
+      for (Eigen::Index i = 0; i < system.rows(); ++i)
+        system(i, i) += i < index(noise.size()) ? std::max(noise[static_cast<std::size_t>(i)] / variance, least_noise)
+                                                : held * held;
+      if (factors.emplace_back(system).info() != Eigen::Success) return false;
+    }
+    return true;
+  }
+
+  /// Weights of the voxels of a course for what correlates with them as `right` says. On the rim the velocity is zero.
+  Eigen::VectorXd weights(std::size_t course, const std::vector<double>& right) const {
+    return factors[course].solve(vector(right)).head(amplitudes.front().rows());
+  }
+
+  /// What correlates with the voxels as `right` says, in each frame [component][frame].
+  std::vector<Eigen::VectorXd> values(const std::vector<double>& right) const {
+    std::vector<Eigen::VectorXd> result(amplitudes.size(), Eigen::VectorXd::Zero(shapes.rows()));
+    for (std::size_t m = 0; m < factors.size(); ++m) {
+      const Eigen::VectorXd w = weights(m, right);
+      for (std::size_t c = 0; c < result.size(); ++c)
+        result[c] += w.dot(amplitudes[c].col(index(m))) * shapes.col(index(m));
+    }
+    return result;
+  }
 };
 
 LumenVoxels lumen_voxels(const VelocitySeries& series, const mesh::MeshData& data, double tissue_magnitude) {
@@ -85,9 +143,9 @@ ProfileFit::ProfileFit(const VelocitySeries& series, const LumenVoxels& lumen, c
                     least_voxels),
         "leave it out: it is too narrow for these images, or lies beyond them; or bring mesh and images "
         "into the same coordinates");
-  find_variances();
   place_rim();
-  prepare();
+  find_courses();
+  find_flow();
 }
 
 /// Voxels of which at least half lies in the column over the section, and next to nothing in another part of the lumen.
@@ -190,29 +248,6 @@ std::vector<double> ProfileFit::correlations(const Place& at) const {
   return result;
 }
 
-/// Along the normal the mean square of the frame with most, so that peaks are not flattened; across it that of all
-/// frames; less those of the noise.
-void ProfileFit::find_variances() {
-  const auto count = static_cast<double>(observations_.size());
-  double noise = 0, across = 0;
-  for (const auto& o : observations_) noise += o.deviation * o.deviation / count;
-  for (const auto& of_frame : series_.velocity) {
-    double axial = 0, all = 0;
-    for (const auto& o : observations_) {
-      Vec3<double> v{};
-      for (int d = 0; d < 3; ++d)
-        v[d] = static_cast<double>(of_frame[static_cast<std::size_t>(d)][static_cast<std::size_t>(o.voxel)]);
-      axial += std::pow(dot(section_.normal, v), 2) / count;
-      all += dot(v, v) / count;
-    }
-    along_ = std::max(along_, axial - noise);
-    across += 0.5 * (all - axial) / static_cast<double>(series_.frames());
-  }
-  constexpr double least = 1e-2;  // of the noise: no matrix without a diagonal
-  along_ = std::max({along_, least * noise, 1e-12});
-  across_ = std::max({across - noise, least * noise, 1e-12});
-}
-
 /// Places on the rim a fifth of the correlation length apart.
 void ProfileFit::place_rim() {
   for (const auto& edge : section_.rim) {
@@ -228,9 +263,8 @@ void ProfileFit::place_rim() {
   }
 }
 
-void ProfileFit::prepare() {
+void ProfileFit::find_courses() {
   const auto n = observations_.size(), all = n + rim_.size();
-  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
   Eigen::MatrixXd correlated = Eigen::MatrixXd::Zero(index(all), index(all));  // its lower triangle
   for (std::size_t i = 0; i < all; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
@@ -241,57 +275,67 @@ void ProfileFit::prepare() {
         c = j < n ? correlation(observations_[j], rim_[i - n]) : correlation(rim_[i - n], rim_[j - n]);
       correlated(index(i), index(j)) = c;
     }
-  // With the noise in units of the variance of the profile.
-  const auto factorised = [&](double variance) {
-    Eigen::MatrixXd system = correlated;
-    for (std::size_t i = 0; i < all; ++i)
-      system(index(i), index(i)) +=
-          i < n ? std::max(std::pow(observations_[i].deviation, 2) / variance, least_noise) : held * held;
-    auto factor = std::make_shared<Factor>(Factor{Eigen::LLT<Eigen::MatrixXd>(system)});
-    if (factor->cholesky.info() != Eigen::Success)
+  const Eigen::MatrixXd empty(index(n), index(series_.frames()));
+  std::vector<Eigen::MatrixXd> along(1, empty), across(3, empty);
+  std::vector<double> noise;
+  double mean_noise = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    noise.push_back(observations_[i].deviation * observations_[i].deviation);
+    mean_noise += noise.back() / static_cast<double>(n);
+    for (std::size_t frame = 0; frame < series_.frames(); ++frame) {
+      Vec3<double> v{};
+      for (int d = 0; d < 3; ++d)
+        v[d] = static_cast<double>(
+            series_.velocity[frame][static_cast<std::size_t>(d)][static_cast<std::size_t>(observations_[i].voxel)]);
+      const double axial = dot(section_.normal, v);
+      along[0](index(i), index(frame)) = axial;
+      const Vec3<double> rest = v - axial * section_.normal;
+      for (std::size_t d = 0; d < 3; ++d) across[d](index(i), index(frame)) = rest[static_cast<int>(d)];
+    }
+  }
+  const auto fitted = [&](Courses courses) {
+    if (!courses.factorise(correlated, noise))
       throw SolverError(fmt::format("profile of {}: its {} voxels do not determine it", section_.name, n));
-    return factor;
+    return std::make_shared<const Courses>(std::move(courses));
   };
-  factor_along_ = factorised(along_);
-  factor_across_ = factorised(across_);
-  std::vector<double> right(all, 0.0);
+  along_ = fitted(Courses::of(along, 1, mean_noise));
+  across_ = fitted(Courses::of(across, 2, mean_noise));
+}
+
+void ProfileFit::find_flow() {
+  std::vector<double> right(observations_.size() + rim_.size(), 0.0);
   for (const auto& [x, area] : quadrature(section_)) {
     const auto c = correlations(place(column_.plane(x), 0.0));
-    for (std::size_t i = 0; i < all; ++i) right[i] += area * c[i];
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] += area * c[i];
   }
-  flow_weights_ = solved(*factor_along_, std::move(right));
-  for (std::size_t i = 0; i < n; ++i) flow_deviation_ += std::pow(flow_weights_[i] * observations_[i].deviation, 2);
-  flow_deviation_ = std::sqrt(flow_deviation_);
+  const auto flow = along_->values(right).front();
+  flow_.assign(flow.begin(), flow.end());
+  for (std::size_t m = 0; m < along_->factors.size(); ++m) {
+    const auto weights = along_->weights(m, right);
+    double variance = 0;
+    for (std::size_t i = 0; i < observations_.size(); ++i)
+      variance += std::pow(weights[index(i)] * observations_[i].deviation, 2);
+    flow_variances_.push_back(variance);
+  }
 }
 
-/// Weights of the voxels alone: on the rim the velocity is zero.
-std::vector<double> ProfileFit::solved(const Factor& factor, std::vector<double> right) const {
-  factor.cholesky.solveInPlace(Eigen::Map<Eigen::VectorXd>(right.data(), static_cast<Eigen::Index>(right.size())));
-  right.resize(observations_.size());
-  return right;
+double ProfileFit::flow_deviation(std::span<const double> of_frames) const {
+  double variance = 0;
+  for (std::size_t m = 0; m < flow_variances_.size(); ++m)
+    variance += std::pow(along_->shapes.col(index(m)).dot(
+                             Eigen::Map<const Eigen::VectorXd>(of_frames.data(), index(of_frames.size()))),
+                         2) *
+                flow_variances_[m];
+  return std::sqrt(variance);
 }
 
-double ProfileFit::flow(std::size_t frame) const { return dot(section_.normal, sum(frame, flow_weights_)); }
-
-ProfileFit::Weights ProfileFit::weights_at(const Vec3<double>& at) const {
+std::vector<Vec3<double>> ProfileFit::velocities(const Vec3<double>& at) const {
   const auto right = correlations(place(column_.plane(at), 0.0));
-  return {solved(*factor_along_, right), solved(*factor_across_, right)};
-}
-
-Vec3<double> ProfileFit::velocity(std::size_t frame, const Weights& weights) const {
-  const auto along_normal = sum(frame, weights.along), rest = sum(frame, weights.across);
-  return rest + dot(section_.normal, along_normal - rest) * section_.normal;
-}
-
-Vec3<double> ProfileFit::sum(std::size_t frame, std::span<const double> weights) const {
-  Vec3<double> v{};
-  for (std::size_t i = 0; i < observations_.size(); ++i)
-    for (int d = 0; d < 3; ++d)
-      v[d] +=
-          weights[i] *
-          static_cast<double>(
-              series_.velocity[frame][static_cast<std::size_t>(d)][static_cast<std::size_t>(observations_[i].voxel)]);
-  return v;
+  const auto along = along_->values(right), across = across_->values(right);
+  std::vector<Vec3<double>> result;
+  for (Eigen::Index k = 0; k < index(series_.frames()); ++k)
+    result.push_back(along[0][k] * section_.normal + Vec3<double>{{across[0][k], across[1][k], across[2][k]}});
+  return result;
 }
 
 }  // namespace tunica::flow_imaging

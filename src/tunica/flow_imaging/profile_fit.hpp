@@ -2,10 +2,12 @@
 //
 // The profile is a Gaussian process that vanishes on the rim, with a correlation length in the plane and three times as
 // much along the normal, beside a share of a profile of steady flow that is hardly known beforehand (an explicit basis
-// function: eq. 2.39-2.41); voxels are means of it over the part of them that lies in the lumen, diluted by the tissue in
-// the rest. How large velocities along and across the normal are is taken from the voxels, less their noise: what is
-// not there is not fitted. What is fitted is linear in the voxels: a flow is a sum of weights times voxels, and so its
-// uncertainty follows from theirs (Rasmussen & Williams 2006, Gaussian Processes for Machine Learning, eq. 2.23-2.26).
+// function: eq. 2.39-2.41); voxels are means of it over the part of them that lies in the lumen, diluted by the tissue
+// in the rest. Frames are no profiles of their own: blood moves in a few courses over the beat, the principal
+// components of the voxels, and noise in all frames alike. Each course that stands out of the noise has a profile, the
+// larger its variance the less smoothed; what is left is not fitted. For given courses the fit is linear in the voxels:
+// a flow is a sum of weights times voxels, and so its uncertainty follows from theirs (Rasmussen & Williams 2006,
+// Gaussian Processes for Machine Learning, eq. 2.23-2.26).
 #pragma once
 
 #include <memory>
@@ -43,17 +45,12 @@ class ProfileFit {
              const FitSettings& settings);
 
   std::size_t voxels() const { return observations_.size(); }
-  double length() const { return length_; }  ///< m
-  /// Of one frame along the normal [m^3/s].
-  double flow(std::size_t frame) const;
-  double flow_deviation() const { return flow_deviation_; }  ///< standard deviation of the flow of a frame [m^3/s]
-  /// Weights of the voxels for the velocity at a place of the section: of that along the normal, and across it.
-  struct Weights {
-    std::vector<double> along, across;
-  };
-  Weights weights_at(const Vec3<double>& at) const;
-  /// The velocity that such weights give.
-  Vec3<double> velocity(std::size_t frame, const Weights& weights) const;
+  double length() const { return length_; }                  ///< m
+  const std::vector<double>& flow() const { return flow_; }  ///< of each frame along the normal [m^3/s]
+  /// Standard deviation of a weighted sum of the frames' flows, by the noise of the voxels [m^3/s].
+  double flow_deviation(std::span<const double> of_frames) const;
+  /// The velocities of all frames at a place of the section [m/s].
+  std::vector<Vec3<double>> velocities(const Vec3<double>& at) const;
 
  private:
   struct Place {
@@ -71,29 +68,27 @@ class ProfileFit {
     double deviation;  ///< m/s
   };
   void gather(const LumenVoxels& lumen, double slab, bool at_end);
-  void find_variances();
   void place_rim();
-  void prepare();
-  struct Factor;
+  struct Courses;
+  void find_courses();
+  void find_flow();
   Place place(const std::array<double, 2>& in_plane, double height) const;
   void find_radius();
   double correlation(const Place& a, const Place& b) const;
   double correlation(const Observation& o, const Place& at) const;
   std::vector<double> correlations(const Place& at) const;
-  std::vector<double> solved(const Factor& factor, std::vector<double> right) const;
-  Vec3<double> sum(std::size_t frame, std::span<const double> weights) const;
 
   const VelocitySeries& series_;
   const CrossSection& section_;
   SectionColumn column_;
   Noise noise_;
-  double radius_ = 0;                       ///< largest distance from the rim [m]
-  double length_, along_ = 0, across_ = 0;  ///< m; variances of the velocities along and across the normal [m^2/s^2]
+  double radius_ = 0;  ///< largest distance from the rim [m]
+  double length_;      ///< m
   std::vector<Observation> observations_;
   std::vector<Place> rim_;
-  std::vector<double> flow_weights_;
-  double flow_deviation_ = 0;
-  std::shared_ptr<const Factor> factor_along_, factor_across_;
+  std::shared_ptr<const Courses> along_, across_;  ///< of the velocities along and across the normal
+  std::vector<double> flow_;
+  std::vector<double> flow_variances_;  ///< of the flow of each course along the normal, by the noise [m^6/s^2]
 };
 
 }  // namespace tunica::flow_imaging

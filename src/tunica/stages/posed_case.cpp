@@ -87,9 +87,10 @@ void PosedCase::pose(const ReadCase& c, MPI_Comm comm) {
   distributed::check_region_names(mesh);
   auto input = artifacts::problem_input(c.settings);
   input.boundary.inflows = c.inflows;
-  problem.emplace(mesh, input);
   lumens = analysis::find_lumens(mesh, case_file::describe(c.settings), post_settings(c.settings));
-  monitors.emplace(*problem, lumens ? lumens->map : distributed::LumenMap{});
+  if (lumens) input.lumens = lumens->map;
+  problem.emplace(mesh, input);
+  monitors.emplace(*problem);
   fields.emplace(*problem, c.settings);
   const auto places = artifacts::probe_places(c.settings);
   probes.emplace(mesh, places);

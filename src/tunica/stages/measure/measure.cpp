@@ -154,7 +154,7 @@ ordered_json report_of(const flow::FlowCurve& c) {
           {"deviation_of_mean_ml_s", c.mean_deviation() / unit::ml},
           {"largest_ml_s", *most / unit::ml},
           {"smallest_ml_s", *least / unit::ml},
-          {"deviation_by_noise_ml_s", c.deviation / unit::ml},
+          {"deviation_by_noise_ml_s", c.deviation_by_noise() / unit::ml},
           {"unresolved_share", c.unresolved}};
 }
 
@@ -203,7 +203,7 @@ flow::NodalCourse fitted_profile(const MeasureCase& c, const VesselOfCase& vesse
   std::vector<double> outflow;
   const double sign = opening.name == vessel.inlet ? -1 : 1;
   for (std::size_t k = 0; k < p.series.frames(); ++k)
-    outflow.push_back(measured ? sign * measured->flow[k] : fit.flow(k));
+    outflow.push_back(measured ? sign * measured->flow[k] : fit.flow()[k]);
   return flow::profile_at_nodes(p.series, fit, opening, outflow);
 }
 

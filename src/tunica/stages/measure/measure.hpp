@@ -19,7 +19,7 @@ namespace tunica::stages {
 struct ProfileSettings {
   std::string opening;
   std::optional<double> smoothing;  ///< m
-  double slab = 4;                  ///< voxels
+  double slab = 2;                  ///< voxels
   std::int64_t times = 200;         ///< of the table
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tunica/mesh/slab.hpp"
 #include "tunica/stages/validate/benchmark.hpp"
@@ -21,6 +22,7 @@ struct FlagCase {
   double step, end;                    ///< s
   double quick_end;                    ///< s
   double rho_infinity;
+  std::string mesh_motion{};  ///< other than by default
 };
 
 constexpr double start_up = 2.0;  // s, half a cosine
@@ -61,8 +63,10 @@ std::string case_text(const FlagCase& c, const Variant& v) {
              "  every: 100000\n"
              "  units: {{length: m, time: s, velocity: m/s, pressure: Pa, stress: Pa, flow: m^3/s}}\n"
              "  points: {{A: {{place: [0.6 m, 0.2 m, {5} m], region: wall}}}}\n"
-             "  forces: true\n",
-             c.mean_velocity, start_up, c.step, std::llround(end / c.step), c.rho_infinity, 0.5 * depth);
+             "  forces: true\n"
+             "{6}",
+             c.mean_velocity, start_up, c.step, std::llround(end / c.step), c.rho_infinity, 0.5 * depth,
+             c.mesh_motion.empty() ? "" : fmt::format("mesh_motion: {{{}}}\n", c.mesh_motion));
 }
 
 Posed pose(const FlagCase& c, const Variant& v) {
@@ -154,7 +158,8 @@ std::vector<Benchmark> flag_benchmarks() {
                       {"drag", "N/m", 14.295, 0, 0.02, 0.01},
                       {"lift", "N/m", 0.7638, 0, 0.05, 0.01}},
                      false),
-      flag_benchmark({2, 1e4, 0.5e6, 1.0, 0.005, 15, 0.1, 0.5},
+      // The flag swings by 80 mm: with an exponent of 1 elements at its tip are spoilt at 77 mm.
+      flag_benchmark({2, 1e4, 0.5e6, 1.0, 0.005, 15, 0.1, 0.5, "stiffening_exponent: 2, minimum_quality: 0.02"},
                      {{"u_x of the tip, mean", "m", -14.58e-3, 12.44e-3, not_judged, 0.03},
                       {"u_x of the tip, amplitude", "m", 12.44e-3, 0, not_judged, 0.03},
                       {"u_y of the tip, mean", "m", 1.23e-3, 80.6e-3, not_judged, 0.03},
