@@ -65,7 +65,7 @@ Schema<TuningCase> TuningCase::schema() {
       .by_default()
       .quantity("step", &TuningCase::step, dimension::time, config::above(0),
                 "Time step of the tuning runs, made to fit into the period; a two-hundredth of it when left out")
-      .plausible("0.01 ms", "20 ms")
+      .plausible("0.01 ms", "30 ms")
       .path("output", &TuningCase::output, "Folder of what `tunica tune` finds, relative to that of the case file")
       .by_default("outlets")
       .path("file", &TuningCase::given_file,

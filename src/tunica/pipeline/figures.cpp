@@ -72,10 +72,14 @@ std::string csv_cell(std::string text) {
   return plain ? text : files::quoted(std::move(text));
 }
 
-std::map<std::string, double> read_figures(const std::filesystem::path& post_json) {
+std::map<std::string, double> figures_in(const json& post) {
   std::map<std::string, double> figures;
-  collect(read_json(post_json), "", figures);
+  collect(post, "", figures);
   return figures;
+}
+
+std::map<std::string, double> read_figures(const std::filesystem::path& post_json) {
+  return figures_in(read_json(post_json));
 }
 
 }  // namespace tunica::pipeline

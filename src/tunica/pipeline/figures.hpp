@@ -29,6 +29,7 @@ std::string figure_text(double value);
 std::string csv_cell(std::string text);
 
 /// Every number of post.json by its path, entries of lists by their name or their number from 1.
+std::map<std::string, double> figures_in(const nlohmann::json& post);
 std::map<std::string, double> read_figures(const std::filesystem::path& post_json);
 
 }  // namespace tunica::pipeline

@@ -32,12 +32,38 @@ struct Computed {
   std::vector<std::map<std::string, double>> figures;
 };
 
+double distance_of_tears(const json& a, const json& b) {
+  double squares = 0;
+  for (std::size_t d = 0; d < 3; ++d)
+    squares += std::pow(a.at("centre_mm").at(d).get<double>() - b.at("centre_mm").at(d).get<double>(), 2);
+  return std::sqrt(squares);
+}
+
+/// Tears are numbered along the aorta: where one is closed or opened, those behind it have other numbers. In a variant
+/// they get the names that tears at their places have in the case, and new ones those of opened ones.
+void name_tears_as_in(const json& of_case, json& post) {
+  constexpr double same_place = 10;  // mm
+  if (!post.contains("tears")) return;
+  std::vector<json*> unnamed;
+  for (auto& tear : post["tears"]) unnamed.push_back(&tear);
+  for (const auto& known : of_case.value("tears", json::array())) {
+    const auto nearest = std::min_element(unnamed.begin(), unnamed.end(), [&](const json* a, const json* b) {
+      return distance_of_tears(*a, known) < distance_of_tears(*b, known);
+    });
+    if (nearest == unnamed.end() || distance_of_tears(**nearest, known) > same_place) continue;
+    (**nearest)["name"] = known.at("name");
+    unnamed.erase(nearest);
+  }
+  for (std::size_t k = 0; k < unnamed.size(); ++k) (*unnamed[k])["name"] = fmt::format("opened_{}", k + 1);
+}
+
 Computed read_all(const WhatIfPlan& plan, const Chain& chain) {
   Computed all;
   const auto add = [&](const std::string& name, const fs::path& file) {
     all.names.push_back(name);
     all.post.push_back(read_json(file));
-    all.figures.push_back(read_figures(file));
+    name_tears_as_in(all.post.front(), all.post.back());
+    all.figures.push_back(figures_in(all.post.back()));
   };
   add("as it is", folder_of(chain, stage("post")) / "post.json");
   for (std::size_t k = 0; k < plan.settings.variants.size(); ++k)

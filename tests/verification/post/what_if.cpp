@@ -56,6 +56,11 @@ TEST(WhatIf, ATearThatIsClosedMovesThePressureOfTheFalseLumen) {
       say("  %s: false lumen %.3f mmHg, true less false %.3f mmHg, flow along the false lumen %.3f ml/s\n", name,
           in_false.at(name), difference.at(name), flow.at(name));
     EXPECT_GT(std::abs(flow.at("as it is")), 10);
+    // The tear that is left keeps its name.
+    const auto &first = values.at("tears/tear_1/volume_into_false_lumen_ml"),
+               &second = values.at("tears/tear_2/volume_into_false_lumen_ml");
+    EXPECT_TRUE(std::isnan(first.at("entry_closed")) && std::isfinite(first.at("exit_closed")));
+    EXPECT_TRUE(std::isnan(second.at("exit_closed")) && std::isfinite(second.at("entry_closed")));
     // Nothing passes the tear that is left. Cuts along such a sac still have a tenth of the flow of before: they
     // conserve mass to the accuracy of the mesh only.
     int tears = 0;
