@@ -15,7 +15,7 @@ namespace tunica::flow_imaging {
 
 namespace {
 
-constexpr double along = 3;             ///< correlation length along the normal over that in the plane
+constexpr double stretch = 3;           ///< correlation length along the normal over that in the plane
 constexpr double of_steady = 10;        ///< variance of the steady profile's share over that of what is left
 constexpr double radii_along = 4;       ///< correlation length of that share along the normal [radii]
 constexpr double most_elsewhere = 0.1;  ///< of a voxel that is lumen outside the column
@@ -228,7 +228,7 @@ ProfileFit::Place ProfileFit::place(const std::array<double, 2>& in_plane, doubl
 /// A share of steady flow that is hardly known beforehand, and what is left of it. Without the former the flow would be
 /// drawn towards zero where voxels are few: it was a quarter to a half too small in branches of four to six voxels.
 double ProfileFit::correlation(const Place& a, const Place& b) const {
-  const double x = a.x - b.x, y = a.y - b.y, z = (a.z - b.z) / (along * length_),
+  const double x = a.x - b.x, y = a.y - b.y, z = (a.z - b.z) / (stretch * length_),
                w = (a.z - b.z) / (radii_along * radius_);
   return matern(std::sqrt(x * x + y * y), length_) * std::exp(-0.5 * z * z) +
          of_steady * a.steady * b.steady * std::exp(-0.5 * w * w);
