@@ -17,10 +17,18 @@ namespace {
 PyObject* input_error = nullptr;
 PyObject* solver_error = nullptr;
 
+/// Options of the command line are arguments here.
+std::string in_python(std::string text) {
+  static const std::string option = "--overwrite";
+  for (auto at = text.find(option); at != std::string::npos; at = text.find(option, at))
+    text.replace(at, option.size(), "overwrite=True");
+  return text;
+}
+
 py::object exception_of(const InputError& error) {
   std::vector<std::tuple<std::string, std::string, std::string>> problems;
-  for (const auto& p : error.problems()) problems.emplace_back(p.where, p.what, p.remedy);
-  py::object value = py::reinterpret_borrow<py::object>(input_error)(error.what());
+  for (const auto& p : error.problems()) problems.emplace_back(p.where, p.what, in_python(p.remedy));
+  py::object value = py::reinterpret_borrow<py::object>(input_error)(in_python(error.what()));
   value.attr("problems") = problems;
   return value;
 }
@@ -38,7 +46,7 @@ void translate(std::exception_ptr pointer) {
   } catch (const InputError& error) {
     PyErr_SetObject(input_error, exception_of(error).ptr());
   } catch (const SolverError& error) {
-    PyErr_SetString(solver_error, error.what());
+    PyErr_SetString(solver_error, in_python(error.what()).c_str());
   }
 }
 

@@ -327,6 +327,36 @@ def image_corpus():
     write("image/nifti/rows.nii.gz", zipped(nifti_1("<", True)))
     whole = nifti_2()
     write("image/nifti/members.nii.gz", zipped(whole[:400]) + zipped(whole[400:]))
+    series_corpus()
+
+
+def series_corpus():
+    """Two times of a number, or of a vector, for each of 4 x 3 x 2 voxels."""
+    floats = struct.pack("<48f", *(0.1 * (k % 5) for k in range(48)))
+    vectors = struct.pack("<72f", *(0.1 * (k % 7) for k in range(72)))
+    header = bytearray(nifti_1("<", True)[:352])
+    struct.pack_into("<8h", header, 40, 4, 4, 3, 2, 2, 1, 1, 1)
+    struct.pack_into("<hh", header, 70, 16, 32)
+    struct.pack_into("<8f", header, 76, 1, 0.5, 0.6, 0.7, 0.04, 0, 0, 0)
+    header[123] = 2 + 8
+    write("image/series/times.nii", bytes(header) + floats)
+    write("image/series/times.nii.gz", zipped(bytes(header) + floats))
+    struct.pack_into("<8h", header, 40, 5, 4, 3, 2, 1, 3, 1, 1)
+    write("image/series/vectors.nii", bytes(header) + vectors)
+    shape = "space: left-posterior-superior\nspace origin: (1,2,3)\nendian: little\ntype: float\nencoding: raw\n"
+    write("image/series/times.nrrd",
+          ("NRRD0005\ndimension: 4\nsizes: 4 3 2 2\nkinds: domain domain domain list\n"
+           "space directions: (0.5,0,0) (0,0.6,0.1) (0,-0.1,0.7) none\n" + shape + "\n").encode() + floats)
+    write("image/series/vectors.nrrd",
+          ("NRRD0005\ndimension: 4\nsizes: 3 4 3 2\nkinds: vector domain domain domain\n"
+           "space directions: none (0.5,0,0) (0,0.6,0.1) (0,-0.1,0.7)\n" + shape + "\n").encode() + vectors)
+    write("image/series/times.mha",
+          ("ObjectType = Image\nNDims = 4\nBinaryData = True\nOffset = 1 2 3 0\nElementSpacing = 0.5 0.6 0.7 0.04\n"
+           "DimSize = 4 3 2 2\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n").encode() + floats)
+    write("image/series/vectors.mha",
+          ("ObjectType = Image\nNDims = 3\nBinaryData = True\nOffset = 1 2 3\nElementSpacing = 0.5 0.6 0.7\n"
+           "DimSize = 4 3 2\nElementNumberOfChannels = 3\nElementType = MET_FLOAT\n"
+           "ElementDataFile = LOCAL\n").encode() + vectors)
 
 
 # --- cases of other programs --------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@
 #include "tunica/imaging/distance.hpp"
 #include "tunica/imaging/gaussian.hpp"
 #include "tunica/imaging/label_image.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 
 namespace tunica::imaging::trials {

@@ -12,7 +12,7 @@
 #include "tunica/distributed/element_shape.hpp"
 #include "tunica/frames/laplace.hpp"
 #include "tunica/frames/tears.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::analysis {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <queue>
@@ -100,10 +101,15 @@ std::vector<Station> stations_at(const mesh::MeshData& data, const Vessel& vesse
   return stations;
 }
 
+/// Value at the end of the aorta, where all of an opening have the same.
+double end_value(const mesh::MeshData& data, const Vessel& vessel) {
+  return vessel.along[static_cast<std::size_t>(data.faces[vessel.end].triangles[0][0])];
+}
+
 /// Values of the potential before the end of the aorta that share out the nodes of the lumen evenly.
 std::vector<double> even_levels(const mesh::MeshData& data, const Vessel& vessel) {
   const auto& along = vessel.along;
-  const double end = along[static_cast<std::size_t>(data.faces[vessel.end].triangles[0][0])];
+  const double end = end_value(data, vessel);
   const auto* lumen = lumen_region(data);
   std::vector<std::int64_t> nodes;
   for (auto e = lumen->first_element; e < lumen->end_element; ++e)
@@ -166,21 +172,6 @@ std::vector<double> distances_from(const mesh::MeshData& data, std::size_t face)
   return distance;
 }
 
-/// Arc length of the line from the middle of the inlet through the centres to the middle of the end: at each centre,
-/// and in all.
-std::pair<std::vector<double>, double> arc_lengths(const mesh::MeshData& data, const Vessel& vessel,
-                                                   const std::vector<Station>& line) {
-  std::vector<double> length;
-  Vec3<double> last = middle(data, vessel.inlet);
-  double total = 0;
-  for (const auto& station : line) {
-    total += norm(station.centre - last);
-    length.push_back(total);
-    last = station.centre;
-  }
-  return {length, total + norm(middle(data, vessel.end) - last)};
-}
-
 }  // namespace
 
 std::size_t farthest_opening(const mesh::MeshData& data, const Vessel& vessel) {
@@ -201,23 +192,38 @@ std::size_t farthest_opening(const mesh::MeshData& data, const Vessel& vessel) {
   return farthest;
 }
 
-std::vector<Station> make_stations(const mesh::MeshData& data, const Vessel& vessel, double spacing) {
+void turn_into_distances(const mesh::MeshData& data, Vessel& vessel) {
+  // From the middle of the inlet through the centres of sections to the middle of the end.
+  std::vector<double> potential{0}, length{0};
+  Vec3<double> last = middle(data, vessel.inlet);
+  const auto add = [&](double value, const Vec3<double>& centre) {
+    potential.push_back(value);
+    length.push_back(length.back() + norm(centre - last));
+    last = centre;
+  };
   const auto levels = even_levels(data, vessel);
-  const auto [length, total] = arc_lengths(data, vessel, stations_at(data, vessel, levels));
-  std::vector<double> chosen, distances;
-  for (double s = spacing; s < total - 0.5 * spacing; s += spacing) {
-    const auto above = std::lower_bound(length.begin(), length.end(), s);
-    if (above == length.begin() || above == length.end()) continue;  // between an end and the level next to it
-    const auto k = static_cast<std::size_t>(above - length.begin());
-    const double t = (s - length[k - 1]) / (length[k] - length[k - 1]);
-    chosen.push_back((1 - t) * levels[k - 1] + t * levels[k]);
-    distances.push_back(s);
+  const auto line = stations_at(data, vessel, levels);
+  for (std::size_t k = 0; k < levels.size(); ++k) add(levels[k], line[k].centre);
+  add(end_value(data, vessel), middle(data, vessel.end));
+  for (auto& value : vessel.along) {
+    if (std::isnan(value)) continue;
+    const auto above = std::upper_bound(potential.begin() + 1, potential.end() - 1, value);
+    const auto k = static_cast<std::size_t>(above - potential.begin());
+    const double t = (value - potential[k - 1]) / (potential[k] - potential[k - 1]);
+    value = (1 - t) * length[k - 1] + t * length[k];
   }
-  if (chosen.empty())
+}
+
+std::vector<Station> make_stations(const mesh::MeshData& data, const Vessel& vessel, double spacing) {
+  const double total = end_value(data, vessel);
+  std::vector<double> distances;
+  for (double s = spacing; s < total - 0.5 * spacing; s += spacing) distances.push_back(s);
+  if (distances.empty())
     throw InputError("post.spacing", fmt::format("leaves no station on an aorta of {:.3g} mm", 1e3 * total),
                      "take a smaller one");
-  auto stations = stations_at(data, vessel, chosen);
+  auto stations = stations_at(data, vessel, distances);
   for (std::size_t k = 0; k < stations.size(); ++k) stations[k].distance = distances[k];
+  std::erase_if(stations, [](const Station& s) { return s.sections[0].empty() && s.sections[1].empty(); });
   return stations;
 }
 

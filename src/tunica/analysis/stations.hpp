@@ -9,9 +9,13 @@ namespace tunica::analysis {
 /// InputError when there is no other.
 std::size_t farthest_opening(const mesh::MeshData& data, const Vessel& vessel);
 
-/// Level surfaces of vessel.along, split by vessel.side where there is one. The centreline joins the centroids of
-/// sections; of each lumen the connected piece in the aorta counts, not those in branches. A false
-/// lumen of less than 1 % of the section is none. Throws InputError when the spacing leaves no station.
+/// Makes of vessel.along, a potential that rises from 0 at the inlet, the distance along the centreline [m], which
+/// joins the centroids of the sections at which the potential has one value.
+void turn_into_distances(const mesh::MeshData& data, Vessel& vessel);
+
+/// Level surfaces of the distance vessel.along, split by vessel.side where there is one. Of each lumen the connected
+/// piece in the aorta counts, not those in branches. A false lumen of less than 1 % of the section is none. Throws
+/// InputError when the spacing leaves no station.
 std::vector<Station> make_stations(const mesh::MeshData& data, const Vessel& vessel, double spacing);
 
 }  // namespace tunica::analysis

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -12,7 +13,7 @@
 #include "tunica/frames/laplace.hpp"
 #include "tunica/frames/tears.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/gather.hpp"
 
@@ -181,6 +182,29 @@ void mark_openings(const mesh::MeshData& data, Vessel& vessel) {
   }
 }
 
+const std::vector<double>* node_field(const mesh::MeshData& data, const char* name) {
+  for (const auto& field : data.node_fields)
+    if (field.name == name) return &field.values;
+  return nullptr;
+}
+
+/// Zero at the inlet, and at the end as far as a vessel between the two can be long.
+void check_distances(const mesh::MeshData& data, const Vessel& vessel, const std::vector<double>& distance) {
+  constexpr double most_winding = 20, slack = 0.05;
+  const auto first_of = [&](std::size_t face) { return data.faces[face].triangles[0][0]; };
+  const auto value_at = [&](std::int64_t node) { return distance[static_cast<std::size_t>(node)]; };
+  const double straight = norm(data.points[static_cast<std::size_t>(first_of(vessel.end))] -
+                               data.points[static_cast<std::size_t>(first_of(vessel.inlet))]);
+  const double begin = value_at(first_of(vessel.inlet)), end = value_at(first_of(vessel.end));
+  if (std::abs(begin) <= slack * straight && end >= (1 - slack) * straight - std::abs(begin) &&
+      end <= most_winding * straight)
+    return;
+  throw InputError(fmt::format("the point array {} of the lumen", mesh::distance_along),
+                   fmt::format("is {:.4g} at the inlet and {:.4g} at {}, which are {:.4g} m from each other", begin,
+                               end, data.faces[vessel.end].name, straight),
+                   "give distances from the inlet in metres, or take the array away: they are found then");
+}
+
 void place_tears(Vessel& vessel) {
   for (auto& tear : vessel.tears) tear.distance = distance_along(vessel, tear.centre);
   std::stable_sort(vessel.tears.begin(), vessel.tears.end(),
@@ -239,10 +263,8 @@ Vessel make_vessel(const RunDescription& run, const PostSettings& settings, cons
   sort_faces(run, data, vessel);
   find_ends(run, settings, data, vessel);
   const auto mesh = distributed::distribute(data, comm);
-  vessel.along = potential_along(run, data, mesh, vessel);
   vessel.towards_end = potential_towards_end(run, data, mesh, vessel);
-  for (const auto& field : data.node_fields)
-    if (field.name == mesh::lumen_side) vessel.side = field.values;
+  if (const auto* side = node_field(data, mesh::lumen_side)) vessel.side = *side;
   if (vessel.side.empty()) {
     leave_lumens_out(run, vessel);
   } else {
@@ -253,6 +275,13 @@ Vessel make_vessel(const RunDescription& run, const PostSettings& settings, cons
     mark_openings(data, vessel);
     vessel.tears = find_tears(data, vessel.side);
     if (vessel.tears.empty()) vessel.left_out.push_back({"tears", "true and false lumen do not communicate"});
+  }
+  if (const auto* given = node_field(data, mesh::distance_along)) {
+    check_distances(data, vessel, *given);
+    vessel.along = *given;
+  } else {
+    vessel.along = potential_along(run, data, mesh, vessel);
+    turn_into_distances(data, vessel);
   }
   vessel.stations = make_stations(data, vessel, settings.spacing);
   place_tears(vessel);

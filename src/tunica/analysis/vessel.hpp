@@ -29,7 +29,7 @@ struct LumenOpening {
 
 inline constexpr std::array<const char*, 2> lumen_names = {"true", "false"};
 
-/// A cross-section of the aorta where the longitudinal potential has one value, facing downstream.
+/// A cross-section of the aorta at one distance from the inlet, facing downstream.
 struct Station {
   double distance = 0;                               ///< along the centreline from the inlet [m]
   Vec3<double> centre{{0, 0, 0}};                    ///< m
@@ -49,7 +49,7 @@ struct Vessel {
   std::vector<LumenOpening> openings;
   std::vector<std::array<std::int64_t, 3>> inside;  ///< triangles at which the flow sticks to the wall
   std::vector<double> side;  ///< of each node: > 0 in the true lumen, else false; empty where lumens are not told apart
-  std::vector<double> along;        ///< of each node: potential that rises towards all ends; empty without a lumen
+  std::vector<double> along;        ///< of each node: from the inlet along the aorta [m]; empty without a lumen
   std::vector<double> towards_end;  ///< of each node: potential that rises towards `end` alone
   std::size_t inlet = 0, end = 0;   ///< faces of MeshData where the centreline begins and ends
   std::vector<Station> stations;
@@ -70,8 +70,9 @@ void check_ends(const RunDescription& run, const PostSettings& settings, const m
 /// InputError for faces and regions that the mesh does not have. Collective.
 void tell_lumens_apart(const RunDescription& run, const PostSettings& settings, mesh::MeshData& data, MPI_Comm comm);
 
-/// `data`: the same on all ranks, with the field of `tell_lumens_apart` where there are two lumens. Throws InputError
-/// for faces and regions that the mesh does not have. Collective.
+/// `data`: the same on all ranks, with the field of `tell_lumens_apart` where there are two lumens. Distances along the
+/// aorta are those of mesh::distance_along where it is there, else of a centreline of this mesh. Throws InputError for
+/// faces and regions that the mesh does not have, and distances that cannot be. Collective.
 Vessel make_vessel(const RunDescription& run, const PostSettings& settings, const mesh::MeshData& data, MPI_Comm comm);
 
 /// Distance of the nearest station along the centreline [m]; 0 without stations.

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "tunica/case/plausible.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 
 namespace tunica::artifacts {
 

@@ -20,6 +20,7 @@ constexpr std::array<const char*, 7> colours = {"#0072b2", "#d55e00", "#009e73",
                                                 "#e69f00", "#56b4e9", "#000000"};
 constexpr double margin_left = 78.0, margin_right = 20.0, margin_top = 40.0, margin_bottom = 56.0;
 constexpr double character_width = 7.0, legend_line = 18.0;
+constexpr std::size_t most_within = 8;  ///< entries of a legend that stands among the curves
 
 /// Maps values to pixels along one axis.
 struct Axis {
@@ -132,9 +133,13 @@ std::string draw_frame(const Axis& x, const Axis& y, const PlotOptions& options)
   return svg;
 }
 
-std::string stroke_of(const Series& series, const char* colour) {
+/// Series that have a colour of an earlier one, by their place in the list, differ from it in their dashes.
+std::string stroke_of(const Series& series, const char* colour, std::size_t place) {
+  constexpr std::array<const char*, 4> dashes = {"", "2 3", "10 4", "10 3 2 3"};
+  const std::size_t round = series.colour < 0 ? place / colours.size() % dashes.size() : 0;
+  const std::string dash = series.dashed ? "6 4" : dashes[round];
   return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.7\"{}", colour,
-                     series.dashed ? " stroke-dasharray=\"6 4\"" : "");
+                     dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));
 }
 
 std::string draw_marker(double x, double y, const char* colour, bool hollow) {
@@ -147,7 +152,8 @@ const char* colour_of(const Series& series, std::size_t place) {
   return colours[(series.colour < 0 ? place : static_cast<std::size_t>(series.colour)) % colours.size()];
 }
 
-std::string draw_series(const Series& series, const Axis& x, const Axis& y, const char* colour) {
+std::string draw_series(const Series& series, const Axis& x, const Axis& y, std::size_t place) {
+  const char* colour = colour_of(series, place);
   std::string path, markers;
   bool pen_down = false;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -161,7 +167,8 @@ std::string draw_series(const Series& series, const Axis& x, const Axis& y, cons
     pen_down = true;
   }
   if (!series.line) return markers;
-  return fmt::format("<path d=\"{}\" {} stroke-linejoin=\"round\"/>\n", path, stroke_of(series, colour)) + markers;
+  return fmt::format("<path d=\"{}\" {} stroke-linejoin=\"round\"/>\n", path, stroke_of(series, colour, place)) +
+         markers;
 }
 
 /// How many drawn points lie in a rectangle, such as that of a legend.
@@ -177,16 +184,34 @@ int points_within(const std::vector<Series>& series, const Axis& x, const Axis& 
   return count;
 }
 
-std::string draw_legend(const std::vector<Series>& series, const Axis& x, const Axis& y) {
-  std::size_t entries = 0, longest = 0;
-  for (const auto& s : series) {
-    if (s.name.empty()) continue;
-    ++entries;
-    longest = std::max(longest, s.name.size());
+/// Size of a legend: one of few entries stands among the curves, one of many beside the plot, in columns.
+struct Legend {
+  std::size_t entries = 0, rows = 0;
+  double column = 0, width = 0, height = 0;
+
+  Legend(const std::vector<Series>& series, const PlotOptions& options) {
+    std::size_t longest = 0;
+    for (const auto& s : series) {
+      if (s.name.empty()) continue;
+      ++entries;
+      longest = std::max(longest, s.name.size());
+    }
+    if (entries == 0) return;
+    const double room = options.height - margin_top - margin_bottom - 8.0;
+    rows = beside() ? std::min(entries, static_cast<std::size_t>(std::max(1.0, room / legend_line))) : entries;
+    column = 48.0 + character_width * static_cast<double>(longest);
+    width = column * static_cast<double>((entries + rows - 1) / rows);
+    height = 8.0 + legend_line * static_cast<double>(rows);
   }
-  if (entries == 0) return "";
-  const double width = 48.0 + character_width * static_cast<double>(longest);
-  const double height = 8.0 + legend_line * static_cast<double>(entries);
+  bool beside() const { return entries > most_within; }
+  /// That the plot is wider than it would be without [pixels].
+  int more_width() const { return beside() ? static_cast<int>(std::ceil(width)) : 0; }
+};
+
+/// Left upper corner of a legend among the curves: that of the plot where it hides least.
+std::pair<double, double> place_within(const Legend& legend, const std::vector<Series>& series, const Axis& x,
+                                       const Axis& y) {
+  const double width = legend.width, height = legend.height;
   double left = 0.0, top = 0.0;
   int fewest = std::numeric_limits<int>::max();
   for (const double at_x : {x.end - width - 8.0, x.begin + 8.0})
@@ -197,18 +222,27 @@ std::string draw_legend(const std::vector<Series>& series, const Axis& x, const 
       left = at_x;
       top = at_y;
     }
+  return {left, top};
+}
+
+std::string draw_legend(const Legend& legend, const std::vector<Series>& series, const Axis& x, const Axis& y) {
+  if (legend.entries == 0) return "";
+  const auto [left, top] =
+      legend.beside() ? std::pair(x.end + margin_right, y.end) : place_within(legend, series, x, y);
   std::string svg = fmt::format(
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#ffffff\" fill-opacity=\"0.85\" "
       "stroke=\"#bbbbbb\"/>\n",
-      left, top, width, height);
-  double at = top + 4.0 + 0.5 * legend_line;
+      left, top, legend.width - (legend.beside() ? 8.0 : 0.0), legend.height);
+  std::size_t entry = 0;
   for (std::size_t i = 0; i < series.size(); ++i) {
     if (series[i].name.empty()) continue;
     const char* colour = colour_of(series[i], i);
-    if (series[i].line) svg += line_at(left + 8.0, at, left + 34.0, at, stroke_of(series[i], colour));
-    if (series[i].markers) svg += draw_marker(left + 21.0, at, colour, series[i].hollow);
-    svg += text_at(left + 40.0, at + 4.0, "start", series[i].name);
-    at += legend_line;
+    const double from = left + legend.column * static_cast<double>(entry / legend.rows),
+                 at = top + 4.0 + legend_line * (0.5 + static_cast<double>(entry % legend.rows));
+    if (series[i].line) svg += line_at(from + 8.0, at, from + 34.0, at, stroke_of(series[i], colour, i));
+    if (series[i].markers) svg += draw_marker(from + 21.0, at, colour, series[i].hollow);
+    svg += text_at(from + 40.0, at + 4.0, "start", series[i].name);
+    ++entry;
   }
   return svg;
 }
@@ -241,14 +275,15 @@ std::vector<double> axis_ticks(double low, double high, bool logarithmic) {
 
 std::string draw_plot(const std::vector<Series>& series, const PlotOptions& options) {
   const auto [x, y] = make_axes(series, options);
+  const Legend legend(series, options);
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"12\" fill=\"#222222\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      options.width, options.height);
+      options.width + legend.more_width(), options.height);
   svg += draw_frame(x, y, options);
-  for (std::size_t i = 0; i < series.size(); ++i) svg += draw_series(series[i], x, y, colour_of(series[i], i));
-  return svg + draw_legend(series, x, y) + "</svg>\n";
+  for (std::size_t i = 0; i < series.size(); ++i) svg += draw_series(series[i], x, y, i);
+  return svg + draw_legend(legend, series, x, y) + "</svg>\n";
 }
 
 void write_plot(const std::string& file, const std::vector<Series>& series, const PlotOptions& options) {

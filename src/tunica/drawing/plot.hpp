@@ -14,14 +14,15 @@ struct Series {
   bool markers = false;
   bool dashed = false;
   bool hollow = false;  ///< markers are rings
-  int colour = -1;      ///< number in the palette of seven; -1: by the place in the list
+  int colour = -1;      ///< number in the palette of seven; -1: by the place in the list, from the eighth on with
+                        ///< dashes
 };
 
 struct PlotOptions {
   std::string title;
   std::string x_label, y_label;  ///< with the unit, as in "flow [ml/s]"
   bool log_x = false, log_y = false;
-  int width = 720, height = 440;  ///< pixels
+  int width = 720, height = 440;  ///< pixels; a legend of more than eight series stands to the right of them
 };
 
 inline constexpr int png_scale = 2;

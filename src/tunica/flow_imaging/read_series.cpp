@@ -130,7 +130,7 @@ Schema<SeriesFiles> SeriesFiles::schema() {
       .check(check_files);
 }
 
-std::vector<std::string> files_of_frames(const fs::path& path, const std::string& where) {
+std::vector<std::string> files_of_frames(const fs::path& path, const std::string& where, const std::string& item) {
   const std::string pattern = path.filename().string();
   const auto star = pattern.find('*');
   if (star == std::string::npos) return {path.string()};
@@ -143,7 +143,7 @@ std::vector<std::string> files_of_frames(const fs::path& path, const std::string
     if (files::fits(pattern, entry.path().filename().string())) found.push_back(entry.path().string());
   if (found.empty())
     throw InputError(where, fmt::format("no file is named like {}", path.string()), "check folder and name");
-  return in_order_of_numbers(std::move(found), where);
+  return in_order_of_numbers(std::move(found), where, item);
 }
 
 VelocitySeries read_series(const SeriesFiles& files, const std::string& where) {

@@ -32,8 +32,9 @@ struct SeriesFiles {
 };
 
 /// Files that a name stands for: itself, or with one * all that are named so, in the order of their numbers. Throws
-/// InputError when there is none, and as in_order_of_numbers().
-std::vector<std::string> files_of_frames(const std::filesystem::path& path, const std::string& where);
+/// InputError when there is none, and as in_order_of_numbers(). `item`: what each of them is called in messages.
+std::vector<std::string> files_of_frames(const std::filesystem::path& path, const std::string& where,
+                                         const std::string& item = "frame");
 
 /// Reads NIfTI, NRRD and MetaImage files. `where`: of the section, for messages. Throws InputError for files that do
 /// not read or have other voxels than the first one, components with different numbers of frames, frames out of order,

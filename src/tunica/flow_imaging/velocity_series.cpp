@@ -47,7 +47,7 @@ double largest_component(const VelocitySeries& series, double share) {
 }  // namespace
 
 std::vector<double> frame_times(const std::vector<double>& given, double period, const std::vector<std::string>& names,
-                                const std::string& where) {
+                                const std::string& where, const std::string& item) {
   if (given.empty()) {
     std::vector<double> times;
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -55,33 +55,34 @@ std::vector<double> frame_times(const std::vector<double>& given, double period,
     return times;
   }
   if (given.size() != names.size())
-    throw InputError(where, fmt::format("has {} times, and there are {} frames", given.size(), names.size()),
-                     "give one time for each frame");
+    throw InputError(where, fmt::format("has {} times, and there are {} {}s", given.size(), names.size(), item),
+                     "give one time for each " + item);
   for (std::size_t k = 1; k < given.size(); ++k) {
     if (given[k] > given[k - 1]) continue;
     const bool twice = given[k] == given[k - 1];
-    throw InputError(where,
-                     twice
-                         ? fmt::format("frames {} and {} both have the time {:.6g} s", names[k - 1], names[k], given[k])
-                         : fmt::format("frame {} of {:.6g} s stands behind frame {} of {:.6g} s", names[k], given[k],
-                                       names[k - 1], given[k - 1]),
-                     "order the frames by their times, each once");
+    throw InputError(
+        where,
+        twice ? fmt::format("{}s {} and {} both have the time {:.6g} s", item, names[k - 1], names[k], given[k])
+              : fmt::format("{} {} of {:.6g} s stands behind {} {} of {:.6g} s", item, names[k], given[k], item,
+                            names[k - 1], given[k - 1]),
+        fmt::format("order the {}s by their times, each once", item));
   }
   if (given.front() < 0 || !(given.back() < period))
     throw InputError(where,
-                     fmt::format("frames from {:.6g} s to {:.6g} s do not lie within one period of {:.6g} s, from 0 on",
-                                 given.front(), given.back(), period),
+                     fmt::format("{}s from {:.6g} s to {:.6g} s do not lie within one period of {:.6g} s, from 0 on",
+                                 item, given.front(), given.back(), period),
                      "give times since the trigger, and the period of the heart beat");
   return given;
 }
 
-std::vector<std::string> in_order_of_numbers(std::vector<std::string> files, const std::string& where) {
+std::vector<std::string> in_order_of_numbers(std::vector<std::string> files, const std::string& where,
+                                             const std::string& item) {
   std::vector<std::pair<long long, std::string>> numbered;
   for (auto& file : files) {
     const auto number = last_number(file);
     if (number.empty() || number.size() > 12)
       throw InputError(where, fmt::format("{} has no number in its name that would tell its place", file),
-                       "number the frames: velocity_00.nrrd, velocity_01.nrrd, ...");
+                       fmt::format("number the {0}s: {0}_00.nrrd, {0}_01.nrrd, ...", item));
     numbered.emplace_back(std::stoll(number), std::move(file));
   }
   std::sort(numbered.begin(), numbered.end());
@@ -89,10 +90,12 @@ std::vector<std::string> in_order_of_numbers(std::vector<std::string> files, con
     const auto [before, first] = numbered[k - 1];
     const auto [number, second] = numbered[k];
     if (number == before)
-      throw InputError(where, fmt::format("{} and {} are both frame {}", first, second, number), "remove one of them");
+      throw InputError(where, fmt::format("{} and {} are both {} {}", first, second, item, number),
+                       "remove one of them");
     if (number != before + 1)
-      throw InputError(where, fmt::format("after frame {} ({}) comes frame {} ({})", before, first, number, second),
-                       "copy the frames that are missing, or number them one after the other");
+      throw InputError(where,
+                       fmt::format("after {0} {1} ({2}) comes {0} {3} ({4})", item, before, first, number, second),
+                       fmt::format("copy the {}s that are missing, or number them one after the other", item));
   }
   std::vector<std::string> ordered;
   for (auto& [number, file] : numbered) ordered.push_back(std::move(file));

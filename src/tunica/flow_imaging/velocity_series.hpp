@@ -29,13 +29,15 @@ struct VelocitySeries {
 
 /// Times of `count` frames over a beat: those that are given, or equal steps of period / count from 0 on. `names`: of
 /// the frames, for messages. Throws InputError for frames out of order, two frames of one time, a number of times that
-/// is not that of the frames, and times that reach beyond the period.
+/// is not that of the frames, and times that reach beyond the period. `item`: what a frame is called in
+/// messages.
 std::vector<double> frame_times(const std::vector<double>& given, double period, const std::vector<std::string>& names,
-                                const std::string& where);
+                                const std::string& where, const std::string& item = "frame");
 
 /// Files of frames in the order of the last number in their names. Throws InputError, with the names, for a file
 /// without a number, two files with one number, and a number that is left out.
-std::vector<std::string> in_order_of_numbers(std::vector<std::string> files, const std::string& where);
+std::vector<std::string> in_order_of_numbers(std::vector<std::string> files, const std::string& where,
+                                             const std::string& item = "frame");
 
 /// Looks at the largest speeds. Throws InputError when they are no speeds of blood in m/s, or lie beyond the encoding
 /// velocity, naming the unit that was likely meant. `where`: of the unit in the input.

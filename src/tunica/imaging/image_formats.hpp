@@ -25,4 +25,7 @@ void write_nifti(const LabelImage& image, const std::filesystem::path& path);
 ImageFrame checked_frame(const Size3& size, const std::array<Vec3<double>, 3>& columns, const Point& origin,
                          const std::filesystem::path& path);
 
+/// Throws InputError for numbers of values, times and components that no series has: their product is a size of memory.
+void check_counts(const ValueImage& image);
+
 }  // namespace tunica::imaging

@@ -101,6 +101,19 @@ ImageFrame checked_frame(const Size3& size, const std::array<Vec3<double>, 3>& c
   return frame;
 }
 
+void check_counts(const ValueImage& image) {
+  constexpr std::int64_t most_values = 9, most_times = 100'000;
+  const auto check = [&](const char* what, std::int64_t count, std::int64_t most) {
+    if (count < 1 || count > most)
+      throw InputError(image.path.string(),
+                       fmt::format("its header announces {} {}, 1 to {} are possible", count, what, most),
+                       "correct its header, or write the image again");
+  };
+  check("values for each voxel", image.per_voxel, most_values);
+  check("components", image.components, most_values);
+  check("times", image.times, most_times);
+}
+
 LabelImage read_label_image(const std::filesystem::path& path) {
   switch (format_of_file(path)) {
     case Format::nrrd:

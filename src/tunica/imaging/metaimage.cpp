@@ -181,6 +181,7 @@ ValueImage open_metaimage(const std::filesystem::path& path) {
     if (image.per_voxel < 1) header.refuse("elementnumberofchannels", "must be above zero", "write the image again");
     header.fields.at("elementnumberofchannels").value = std::to_string(1);
   }
+  check_counts(image);
   image.frame = metaimage_frame(header);
   if (!flag(header, "binarydata", true))
     header.refuse("binarydata", "series of numbers are read from binary data", "write it as binary data");

@@ -308,6 +308,7 @@ ValueImage open_nifti(const std::filesystem::path& path) {
              "write times along dimension 4 and components along dimension 5");
   image.times = size_along(header, 4);
   image.components = size_along(header, 5);
+  check_counts(image);
   image.time_step = time_step(header);
   image.format = {value_type(header, path), header.big_endian, scaling_of(header, path)};
   skip_to_voxels(*image.data, header, path);

@@ -253,6 +253,7 @@ ValueImage open_nrrd(const std::filesystem::path& path) {
   image.frame = nrrd_frame(header);
   image.per_voxel = fourth.first;
   image.times = fourth.last;
+  check_counts(image);
   const auto type = nrrd_value_type(header);
   if (encoding_of(header) == Encoding::text)
     header.refuse("encoding", "series of numbers are read from raw or gzip", "write it with encoding raw or gzip");

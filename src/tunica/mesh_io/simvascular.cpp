@@ -10,7 +10,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/mesh/names.hpp"
 #include "tunica/mesh/point_locator.hpp"
 #include "tunica/mesh/quality.hpp"
@@ -349,9 +349,10 @@ VtkCells read_volume(const MeshFiles& files, mesh::RegionKind kind, const SimVas
   std::vector<std::string> own;
   for (const auto& array : wanted)
     if (other_file(options, array) == nullptr) own.push_back(array);
-  auto file = read_vtk_volume(
-      files.volume, own, {},
-      kind == mesh::RegionKind::lumen ? std::vector<std::string>{mesh::lumen_side} : std::vector<std::string>{});
+  auto file = read_vtk_volume(files.volume, own, {},
+                              kind == mesh::RegionKind::lumen
+                                  ? std::vector<std::string>(mesh::lumen_fields.begin(), mesh::lumen_fields.end())
+                                  : std::vector<std::string>{});
   std::vector<mesh::ElementField> fields;
   auto next = file.fields.begin();
   for (const auto& array : wanted)

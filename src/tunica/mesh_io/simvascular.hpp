@@ -50,7 +50,7 @@ struct MeshFiles {
 /// of the volume, or as 1-based positions when it has none), otherwise all from the coordinates. GlobalElementID is
 /// compared with the elements and reported, nothing depends on it. Triangles are turned outward.
 ///
-/// The point array mesh::lumen_side of a lumen is kept where it is there.
+/// The point arrays mesh::lumen_fields of a lumen are kept where they are there.
 ///
 /// Returns one region called `name`, or the named ones, which share their nodes; a face that bounds several of them is
 /// one face. Faces are called after their files. Throws InputError for missing or
@@ -67,9 +67,10 @@ mesh::LoadedMesh read_mesh_files(const MeshFiles& files, mesh::RegionKind kind, 
 
 /// Writes the regions of one kind as a `mesh-complete` folder that read_simvascular reads back: the volume with
 /// GlobalNodeID, GlobalElementID, the cell array `region` (1, 2, ... in the order of `data.regions`) and `data.fields`,
-/// of a lumen also the point array mesh::lumen_side where `data` has it, a file for each face, and all faces in one.
-/// Files of the same names are replaced, other faces there are removed. Coordinates are divided by `metres_per_unit`.
-/// Returns the region names in the order of their numbers. Throws SolverError when a file cannot be written.
+/// of a lumen also the point arrays mesh::lumen_fields where `data` has them, a file for each face, and all faces in
+/// one. Files of the same names are replaced, other faces there are removed. Coordinates are divided by
+/// `metres_per_unit`. Returns the region names in the order of their numbers. Throws SolverError when a file cannot be
+/// written.
 std::vector<std::string> write_simvascular(const std::filesystem::path& folder, const mesh::MeshData& data,
                                            mesh::RegionKind kind, double metres_per_unit);
 

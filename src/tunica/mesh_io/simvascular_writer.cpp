@@ -17,7 +17,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/mesh_io/simvascular.hpp"
 #include "tunica/mesh_io/volume_arrays.hpp"
 #include "tunica/mesh_io/vtk_writer.hpp"
@@ -133,7 +133,8 @@ void write_volume(const fs::path& path, const mesh::MeshData& data, const Part& 
   grid->GetCellData()->AddArray(region);
   for (const auto& field : data.fields) grid->GetCellData()->AddArray(field_array(field, part.elements));
   for (const auto& field : data.node_fields)
-    if (kind == mesh::RegionKind::lumen && field.name == mesh::lumen_side)
+    if (kind == mesh::RegionKind::lumen &&
+        std::find(mesh::lumen_fields.begin(), mesh::lumen_fields.end(), field.name) != mesh::lumen_fields.end())
       grid->GetPointData()->AddArray(field_array(field, part.nodes));
   grid->GetPointData()->AddArray(id_array("GlobalNodeID", counted(std::ssize(part.nodes))));
   grid->GetCellData()->AddArray(id_array("GlobalElementID", counted(std::ssize(part.elements))));

@@ -7,7 +7,7 @@
 
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/boundary.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 
 namespace tunica::meshing {
 

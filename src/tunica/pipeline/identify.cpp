@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tunica/base/error.hpp"
+#include "tunica/files/csv_file.hpp"
 #include "tunica/files/lock.hpp"
 #include "tunica/files/outputs.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -62,16 +63,18 @@ class Identification {
     parallel::on_root_patiently(comm_, [&] {
       plan_ = plan_identify(request_.file, request_.output);
       search_ = search_of(plan_);
-      files::make_folder(plan_.output);
+      CaseFiles cases(!request_.dry_run);
+      cases.make_folder(plan_.output);
       files::try_outputs(plan_.output, {"identify.csv", "identify.json", "identify.html", "identified.yaml"});
       const PointCase first = case_of_run(plan_, 1, values_of(*search_->next()));
       files::refuse_if_owned_by_another(first.folder);
-      lock_ = files::FolderLock(plan_.output);
-      if (!lock_.taken_over().empty()) say("warning: " + lock_.taken_over());
-      // Those of another case or other measurements would look like the answer to this one until it is found.
-      if (!request_.dry_run)
+      if (!request_.dry_run) {
+        lock_ = files::FolderLock(plan_.output);
+        if (!lock_.taken_over().empty()) say("warning: " + lock_.taken_over());
+        // Those of another case or other measurements would look like the answer to this one until it is found.
         files::remove_outputs(plan_.output, {"identify.csv", "identify.json", "identify.html", "identified.yaml"});
-      write_case(first);
+      }
+      cases.write(first);
       std::vector<Problem> warnings;
       check_on_meshes(read_chain(first.file, std::nullopt, warnings));  // the chains tell the warnings
       if (request_.dry_run) foretell(first);
@@ -189,7 +192,17 @@ class Identification {
       found.estimates =
           fitting::estimate(found.slopes, search_->residuals(), plan_.parameters.size(), plan_.independent());
     for (const auto& line : write_identified(plan_, found)) say(line);
+    if (signal == 0) tell_of_other_runs();
     return found.converged;
+  }
+
+  /// Folders of more runs than there were are of an earlier identification.
+  void tell_of_other_runs() const {
+    std::vector<std::string> others;
+    for (auto k = runs_.size() + 1; k <= static_cast<std::size_t>(plan_.settings.max_runs); ++k)
+      if (const auto other = case_of_run(plan_, k, runs_.front().values); std::filesystem::exists(other.file))
+        others.push_back(other.folder.filename().string());
+    if (!others.empty()) say(fmt::format("of an earlier identification, not of this one: {}", files::listed(others)));
   }
 
   const IdentifyRequest& request_;

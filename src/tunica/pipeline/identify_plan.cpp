@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "tunica/base/error.hpp"
@@ -45,7 +46,7 @@ ParsedCase parsed(const Document& document, const fs::path& file) {
 std::optional<double> read_number(const std::string& where, const std::string& text, const std::string& unit,
                                   std::vector<Problem>& problems) {
   const auto number = number_and_unit(text);
-  if (!number)
+  if (!number || !std::isfinite(number->first))
     problems.push_back({where, fmt::format("`{}` is no number", text), "write a number with its unit"});
   else if (number->second != unit)
     problems.push_back({where, fmt::format("`{}` is not in the unit of the others", text),

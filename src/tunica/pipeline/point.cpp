@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +85,35 @@ std::string text_of_point(const PointCase& point, Document document, const fs::p
 void write_case(const PointCase& point) {
   files::make_folder(point.folder);
   if (!files::holds(point.file, point.text)) files::write_atomically(point.file, point.text);
+}
+
+CaseFiles::~CaseFiles() {
+  if (keep_) return;
+  std::error_code ignored;  // a look has no result that could be lost
+  for (const auto& [file, text] : before_) {
+    if (!text)
+      fs::remove(file, ignored);
+    else if (std::ofstream out(file, std::ios::binary); out)
+      out << *text;
+  }
+  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, ignored);
+}
+
+void CaseFiles::make_folder(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  for (auto at = folder; !at.empty() && !fs::exists(at); at = at.parent_path()) missing.push_back(at);
+  made_.insert(made_.end(), missing.rbegin(), missing.rend());
+  files::make_folder(folder);
+}
+
+void CaseFiles::write(const PointCase& point) {
+  if (!keep_) {
+    make_folder(point.folder);
+    std::optional<std::string> text;
+    if (fs::exists(point.file)) text = config::read_text(point.file);
+    before_.emplace_back(point.file, std::move(text));
+  }
+  write_case(point);
 }
 
 PointState read_state(const PointCase& point) {

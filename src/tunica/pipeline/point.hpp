@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,25 @@ std::string text_of_point(const PointCase& point, config::Document document, con
                           const std::string& head);
 /// Makes its folder and writes the case file, where that is another one.
 void write_case(const PointCase& point);
+
+/// Case files that are kept, or only looked at: then what it has written and made is gone with its end, and what was
+/// there is as it was.
+class CaseFiles {
+ public:
+  explicit CaseFiles(bool keep) : keep_(keep) {}
+  ~CaseFiles();
+  CaseFiles(const CaseFiles&) = delete;
+  CaseFiles& operator=(const CaseFiles&) = delete;
+
+  /// With those above it.
+  void make_folder(const std::filesystem::path& folder);
+  void write(const PointCase& point);
+
+ private:
+  bool keep_;
+  std::vector<std::pair<std::filesystem::path, std::optional<std::string>>> before_;  ///< text; none: no such file
+  std::vector<std::filesystem::path> made_;                                           ///< folders, outermost first
+};
 
 /// point.json: how a point ended. Not collective, as what is above and below.
 struct PointState {

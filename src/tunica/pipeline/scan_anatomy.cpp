@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tunica/artifacts/load_mesh.hpp"
@@ -13,6 +14,7 @@
 #include "tunica/config/units.hpp"
 #include "tunica/geometry/parametric_dissection.hpp"
 #include "tunica/mesh/boundary.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/mesh_io/vtk_files.hpp"
 #include "tunica/parallel/agree.hpp"
 #include "tunica/pipeline/figures.hpp"
@@ -50,6 +52,33 @@ std::vector<std::array<std::int64_t, 3>> edge_triangles(const analysis::Vessel& 
     if (at_wall) triangles.push_back(t);
   }
   return triangles;
+}
+
+/// Gives nodes that no element of the lumen has the mean of those neighbours that are nearer to the lumen.
+void extend_from_lumen(const mesh::MeshData& data, std::vector<double>& values) {
+  std::vector<std::uint8_t> known(data.points.size(), 0);
+  const auto* lumen = analysis::lumen_region(data);
+  for (auto e = lumen->first_element; e < lumen->end_element; ++e)
+    for (const auto node : data.tetrahedra[static_cast<std::size_t>(e)]) known[static_cast<std::size_t>(node)] = 1;
+  for (const auto& [wall, host] : data.twins) {
+    values[static_cast<std::size_t>(wall)] = values[static_cast<std::size_t>(host)];
+    known[static_cast<std::size_t>(wall)] = 1;
+  }
+  for (bool more = true; more;) {
+    std::map<std::int64_t, std::pair<double, int>> next;
+    for (const auto& nodes : data.tetrahedra)
+      for (const auto to : nodes)
+        for (const auto from : nodes)
+          if (known[static_cast<std::size_t>(to)] == 0 && known[static_cast<std::size_t>(from)] != 0) {
+            next[to].first += values[static_cast<std::size_t>(from)];
+            ++next[to].second;
+          }
+    for (const auto& [node, sum] : next) {
+      values[static_cast<std::size_t>(node)] = sum.first / sum.second;
+      known[static_cast<std::size_t>(node)] = 1;
+    }
+    more = !next.empty();
+  }
 }
 
 // --- loads ----------------------------------------------------------------------------------------------------------
@@ -158,6 +187,7 @@ std::optional<ScanAnatomy> scan_anatomy(const Chain& chain, double spacing, MPI_
   analysis::RunDescription run;
   analysis::PostSettings settings;
   mesh::MeshData data;
+  const bool solves_wall = chain.settings.solves_wall();
   parallel::agree(comm, [&] {
     const auto meshes = meshes_of(chain);
     if (!meshes.has_lumen())
@@ -169,11 +199,21 @@ std::optional<ScanAnatomy> scan_anatomy(const Chain& chain, double spacing, MPI_
   });
   analysis::tell_lumens_apart(run, settings, data, comm);
   const auto vessel = analysis::make_vessel(run, settings, data, comm);
+  auto along = vessel.along;
+  if (run.interface && !solves_wall) {
+    // Stage `post` sees the lumen alone, whose centreline runs elsewhere than that of lumen and flap.
+    run.interface = false;
+    along = analysis::make_vessel(run, settings, data, comm).along;
+    extend_from_lumen(data, along);
+  }
+  std::erase_if(data.node_fields, [](const auto& field) { return field.name == mesh::distance_along; });
+  data.node_fields.push_back({mesh::distance_along, std::move(along)});
   std::optional<ScanAnatomy> result;
   parallel::on_root(comm, [&] {
     auto anatomy = analysis::make_anatomy(data, vessel, spacing, settings.flap);
     auto edge = edge_triangles(vessel, anatomy);
-    result.emplace(ScanAnatomy{std::move(data), std::move(edge), std::move(anatomy)});
+    const std::string end = data.faces[vessel.end].name;
+    result.emplace(ScanAnatomy{std::move(data), end, std::move(edge), std::move(anatomy)});
   });
   return result;
 }

@@ -14,7 +14,8 @@
 namespace tunica::pipeline {
 
 struct ScanAnatomy {
-  mesh::MeshData data;
+  mesh::MeshData data;  ///< with mesh::distance_along, that of stage `post`
+  std::string end;      ///< opening where the aorta ends
   std::vector<std::array<std::int64_t, 3>>
       edge;  ///< triangles of the lumens at the wall, in the aorta, not at the flap
   analysis::Anatomy anatomy;

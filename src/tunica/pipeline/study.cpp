@@ -113,14 +113,15 @@ class StudyRun {
   void prepare() {
     std::vector<std::size_t> points;
     for (const auto& job : jobs_) points.push_back(job.point);
-    files::make_folder(plan_.output);
+    CaseFiles cases(!request_.dry_run);
+    cases.make_folder(plan_.output);
     files::try_outputs(plan_.output, {"study.csv", "study.json", "study.html"});
     for (const auto k : points) files::refuse_if_owned_by_another(plan_.cases[k].folder);
     if (!request_.point && !request_.dry_run) {  // points of an array of jobs run side by side
       lock_ = files::FolderLock(plan_.output);
       if (!lock_.taken_over().empty()) say("warning: " + lock_.taken_over());
     }
-    write_and_check_cases(plan_, points);
+    write_and_check_cases(plan_, points, cases);
     if (!points.empty()) check_first(plan_.cases[points.front()]);
     if (request_.dry_run)
       for (const auto k : points) foretell(k);

@@ -144,11 +144,11 @@ StudyPlan plan_study(const fs::path& file, const std::optional<fs::path>& output
   return plan;
 }
 
-void write_and_check_cases(const StudyPlan& plan, const std::vector<std::size_t>& points) {
+void write_and_check_cases(const StudyPlan& plan, const std::vector<std::size_t>& points, CaseFiles& cases) {
   PointProblems problems(plan);
   for (const auto k : points) {
     const auto& c = plan.cases[k];
-    write_case(c);
+    cases.write(c);
     std::vector<Problem> warnings;
     try {
       read_chain(c.file, std::nullopt, warnings);

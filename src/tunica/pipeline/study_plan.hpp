@@ -30,6 +30,6 @@ StudyPlan plan_study(const std::filesystem::path& file, const std::optional<std:
 
 /// Writes the case files of these points (numbers from 0) and looks at each as `tunica run` would before its first
 /// stage. Throws InputError with the problems of all.
-void write_and_check_cases(const StudyPlan& plan, const std::vector<std::size_t>& points);
+void write_and_check_cases(const StudyPlan& plan, const std::vector<std::size_t>& points, CaseFiles& cases);
 
 }  // namespace tunica::pipeline

@@ -95,7 +95,7 @@ class WhatIfRun {
         const fs::path folder = plan_.folder_of(k), file = folder / "case.yaml";
         files::make_folder(folder);
         if (plan_.settings.variants[k].second.changes_mesh()) make_mesh(k, *scan);
-        const std::string text = variant_text(plan_, k, *chain_);
+        const std::string text = variant_text(plan_, k, *chain_, scan ? scan->end : "");
         if (!files::holds(file, text)) files::write_atomically(file, text);
         files_.push_back(file.string());
       }

@@ -103,7 +103,7 @@ std::vector<std::string> faces_with_flow(const case_file::Case& c) {
 }
 
 /// The case on the mesh that the variant has made, its directions told from that of the case.
-Document on_changed_mesh(const Chain& chain, const fs::path& folder) {
+Document on_changed_mesh(const Chain& chain, const fs::path& folder, const std::string& end) {
   Document document = case_with_common_outlets(chain, folder);
   const fs::path file = folder / "mesh/meshes.yaml";
   Document meshes = Document(config::read_text(file), file.string()).part("meshes");
@@ -113,6 +113,7 @@ Document on_changed_mesh(const Chain& chain, const fs::path& folder) {
     for (const char* part : {"wall", "interface"}) meshes.remove(part);
   document.remove("mesh");
   document.set("meshes", meshes);
+  document.set("post.end", end);
   if (chain.settings.fibres && chain.settings.mesh) {
     const Document fibres = fibres_document(chain, folder);  // knows inlet, outside and tears of the mesh that was made
     for (const char* key : {"inlet", "outer", "tears"})
@@ -159,10 +160,10 @@ analysis::AnatomyChange change_of(const WhatIf& variant, const Chain& chain) {
   return change;
 }
 
-std::string variant_text(const WhatIfPlan& plan, std::size_t k, const Chain& chain) {
+std::string variant_text(const WhatIfPlan& plan, std::size_t k, const Chain& chain, const std::string& end) {
   const auto& [name, variant] = plan.settings.variants[k];
   const fs::path folder = plan.folder_of(k);
-  Document document = variant.changes_mesh() ? on_changed_mesh(chain, folder)
+  Document document = variant.changes_mesh() ? on_changed_mesh(chain, folder, end)
                       : variant.set.empty()  ? case_on_common_start(chain, folder)
                                              : case_on_common_mesh(chain, folder);
   const bool other_beat = variant.pressure || variant.heart_rate || variant.stroke_volume;

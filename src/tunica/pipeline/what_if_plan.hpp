@@ -29,7 +29,7 @@ analysis::AnatomyChange change_of(const case_file::WhatIf& variant, const Chain&
 
 /// The case file of a variant in its folder, when the stages of the case are done: on its mesh, directions, outlets
 /// and, where nothing says otherwise, prestress; a variant that changes the mesh is on `mesh`/meshes.yaml in its
-/// folder, and has only the outlets in common.
-std::string variant_text(const WhatIfPlan& plan, std::size_t variant, const Chain& chain);
+/// folder, has only the outlets in common, and its aorta ends at `end`, as that of the case does.
+std::string variant_text(const WhatIfPlan& plan, std::size_t variant, const Chain& chain, const std::string& end);
 
 }  // namespace tunica::pipeline

@@ -16,6 +16,7 @@
 #include "tunica/geometry/thickness.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/stages/beat_fibres.hpp"
 #include "tunica/stages/vessel_plane.hpp"
 #include "tunica/viewer/surface.hpp"
@@ -73,7 +74,7 @@ std::vector<viewer::CutPlane> planes_of(const nlohmann::json& post, viewer::Beat
 /// Mean of the lumen's nodes on either side of the flap, in the middle of where both lumens are.
 void add_lumen_labels(const MeshData& data, const nlohmann::json& post, viewer::Beat& beat) {
   const auto side = std::find_if(data.node_fields.begin(), data.node_fields.end(),
-                                 [](const auto& f) { return f.name == "lumen_side"; });
+                                 [](const auto& f) { return f.name == mesh::lumen_side; });
   if (side == data.node_fields.end() || !post.is_object() || !post.contains("stations")) return;
   std::vector<Vec3<double>> both;
   for (const auto& station : post["stations"])

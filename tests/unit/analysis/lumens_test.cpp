@@ -9,7 +9,7 @@
 #include "tunica/config/schema.hpp"
 #include "tunica/distributed/distributed_mesh.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/parallel/agree.hpp"
 
 namespace tunica::analysis {

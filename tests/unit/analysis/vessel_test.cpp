@@ -9,6 +9,7 @@
 #include "text.hpp"
 #include "tunica/analysis/stations.hpp"
 #include "tunica/base/error.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 
 namespace tunica::analysis {
 namespace {
@@ -116,6 +117,28 @@ TEST(Vessel, TheAortaEndsAtTheFarthestOpeningUnlessAnotherIsNamed) {
   // Seen from the end of the branch, the end of the channel is the farther one of the two others.
   vessel.inlet = 2;
   EXPECT_EQ(data.faces[farthest_opening(data, vessel)].name, "end");
+}
+
+/// As those of another mesh of the vessel, whose line was longer here.
+TEST(Vessel, TakesTheDistancesThatTheMeshBringsAlong) {
+  auto data = tube();
+  mesh::NodeField field{mesh::distance_along, {}};
+  for (const auto& x : data.points) field.values.push_back(1.3 * x[2]);
+  data.node_fields.push_back(field);
+  const auto vessel = vessel_of(flow_in_tube(), every(0.01), data);
+  EXPECT_EQ(vessel.stations.size(), static_cast<std::size_t>(std::floor(1.3 * tube_length / 0.01 - 0.5)));
+  for (const auto& station : vessel.stations) EXPECT_NEAR(1.3 * station.centre[2], station.distance, 1e-9);
+
+  for (const double factor : {1e3, 0.5, -1.0}) {
+    data.node_fields.back() = field;
+    for (auto& s : data.node_fields.back().values) s *= factor;
+    try {
+      vessel_of(flow_in_tube(), every(0.01), data);
+      ADD_FAILURE() << factor;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("point array distance_along"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(Vessel, LumensMeetInThePlaneBetweenTheirWalls) {

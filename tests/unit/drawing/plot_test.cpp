@@ -1,5 +1,6 @@
 #include "tunica/drawing/plot.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -10,6 +11,9 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "tunica/base/error.hpp"
 
@@ -131,6 +135,27 @@ TEST(Plot, DrawsRingsInTheColourOfAnotherSeries) {
   const auto svg = draw_plot({line, rings, dots}, {});
   EXPECT_EQ(count(svg, "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.5\""), 2 + 1) << "and one in the legend";
   EXPECT_EQ(count(svg, "r=\"3.2\" fill=\"#009e73\""), 2 + 1) << "the third colour of the palette";
+}
+
+TEST(Plot, TellsManySeriesApartAndListsThemBesideThePlot) {
+  std::vector<Series> series;
+  for (int k = 0; k < 30; ++k) series.push_back({fmt::format("series {}", k), {0.0, 1.0}, {1.0 * k, 1.0 * k}});
+  const auto svg = draw_plot(series, {});
+  EXPECT_EQ(svg.find("width=\"720\""), std::string::npos);
+  std::set<std::string> looks;
+  for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) {
+    const auto from = svg.find("stroke=", at), to = svg.find("stroke-linejoin", at);
+    looks.insert(svg.substr(from, to - from));
+  }
+  EXPECT_EQ(looks.size(), 28U) << "seven colours by four kinds of dashes";
+  for (int k = 0; k < 30; ++k) {
+    const auto label = svg.find(fmt::format(">series {}<", k));
+    ASSERT_NE(label, std::string::npos);
+    const auto x = svg.rfind("x=\"", label);
+    EXPECT_GT(std::stod(svg.substr(x + 3)), 720 - 20) << k;
+  }
+  series.resize(8);
+  EXPECT_NE(draw_plot(series, {}).find("width=\"720\""), std::string::npos);
 }
 
 TEST(Plot, KeepsTheLegendAwayFromTheCurve) {

@@ -10,7 +10,7 @@
 #include "tunica/base/error.hpp"
 #include "tunica/mesh/generate.hpp"
 #include "tunica/mesh/interface.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/mesh/submesh.hpp"
 #include "unit/mesh/check_mesh.hpp"
 

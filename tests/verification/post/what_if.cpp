@@ -77,6 +77,31 @@ TEST(WhatIf, ATearThatIsClosedMovesThePressureOfTheFalseLumen) {
     EXPECT_LT(in_false.at("entry_closed"), in_false.at("as it is"));
     EXPECT_GT(values.at("openings/lumen_inlet/pressure/mean_mmHg").at("more"),
               1.1 * values.at("openings/lumen_inlet/pressure/mean_mmHg").at("as it is"));
+    // One distance is one place, on both vessels.
+    const auto lines_of = [](const fs::path& file) {
+      std::map<double, std::array<double, 3>> centres;
+      const auto table = files::read_table(file, "");
+      const auto column = [&](const char* name) {
+        for (std::size_t c = 0; c < table.headers.size(); ++c)
+          if (table.headers[c] == name) return c;
+        throw std::runtime_error(std::string("no column ") + name);
+      };
+      for (const auto& row : table.rows)
+        centres[table.number(row, column("distance [mm]"))] = {table.number(row, column("x [mm]")),
+                                                               table.number(row, column("y [mm]")),
+                                                               table.number(row, column("z [mm]"))};
+      return centres;
+    };
+    const auto centres = lines_of(folder.path() / "results/post/stations.csv");
+    for (const char* name : {"exit_closed", "entry_closed"}) {
+      const auto closed = lines_of(folder.path() / "what_if" / name / "post/stations.csv");
+      EXPECT_EQ(closed.size(), centres.size());
+      for (const auto& [distance, centre] : closed) {
+        ASSERT_TRUE(centres.contains(distance)) << distance;
+        const auto& c = centres.at(distance);
+        EXPECT_LT(std::hypot(centre[0] - c[0], centre[1] - c[1], centre[2] - c[2]), 1.5) << name << " " << distance;
+      }
+    }
     // Only variants with another vessel have a mesh of their own.
     EXPECT_TRUE(fs::exists(folder.path() / "what_if/exit_closed/mesh/meshes.yaml"));
     EXPECT_FALSE(fs::exists(folder.path() / "what_if/more/mesh"));

@@ -14,7 +14,7 @@
 #include "tunica/flow_imaging/cross_section.hpp"
 #include "tunica/imaging/label_image.hpp"
 #include "tunica/mesh/edge_nodes.hpp"
-#include "tunica/mesh/lumen_side.hpp"
+#include "tunica/mesh/lumen_fields.hpp"
 #include "tunica/motion_imaging/synthetic_phases.hpp"
 #include "tunica/stages/vessel_of_case.hpp"
 

@@ -11,6 +11,7 @@
 #include "tunica/files/outputs.hpp"
 #include "tunica/flow_imaging/read_series.hpp"
 #include "tunica/geometry/surface_file.hpp"
+#include "tunica/imaging/label_image.hpp"
 #include "tunica/mesh/boundary.hpp"
 #include "tunica/motion_imaging/extension.hpp"
 #include "tunica/parallel/agree.hpp"
@@ -57,12 +58,12 @@ Order order_of(const MotionCase& c) {
   Order order;
   const auto& f = c.phases;
   order.files = flow_imaging::files_of_frames(f.labels ? *f.labels : f.surfaces.value(),
-                                              f.labels ? "phases.labels" : "phases.surfaces");
+                                              f.labels ? "phases.labels" : "phases.surfaces", "phase");
   if (order.files.size() < 2)
     throw InputError("phases", "names one phase, at least 2 are needed", "write * in place of the number of the phase");
   std::vector<std::string> names;
   for (const auto& file : order.files) names.push_back(fs::path(file).filename().string());
-  order.times = flow_imaging::frame_times(f.times, f.period, names, "phases.times");
+  order.times = flow_imaging::frame_times(f.times, f.period, names, "phases.times", "phase");
   if (!c.mesh_at) return order;
   std::string known;
   for (std::size_t k = 0; k < order.times.size(); ++k) {
@@ -105,6 +106,27 @@ void refuse_folder(const MotionCase& c, const Order& order, bool overwrite) {
       if (!overwrite && files::fits(pattern, entry.path().filename().string()))
         throw InputError(c.output.string(), fmt::format("holds {} already", entry.path().filename().string()),
                          "give --overwrite, or another `output`");
+}
+
+/// Before any work: files that do not read, and phases in other voxels, which are of another reconstruction or have a
+/// wrong header. Cuts of one grid may differ.
+void check_labels(const std::vector<std::string>& files) {
+  constexpr double tolerance = 0.01;
+  std::optional<imaging::ImageFrame> first;
+  for (const auto& file : files) {
+    const auto frame = imaging::read_label_image(file).frame;
+    if (!first) first = frame;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto &here = frame.steps[d], &there = first->steps[d];
+      if (norm(here - there) < tolerance * norm(there)) continue;
+      throw InputError(
+          file,
+          fmt::format("has voxels of ({:.4g}, {:.4g}, {:.4g}) mm along axis {}, {} has ({:.4g}, {:.4g}, {:.4g}) mm",
+                      here[0] / unit::mm, here[1] / unit::mm, here[2] / unit::mm, d + 1, files.front(),
+                      there[0] / unit::mm, there[1] / unit::mm, there[2] / unit::mm),
+          "give phases of one reconstruction: the same spacing and directions");
+    }
+  }
 }
 
 /// Where both labels meet, at the rims of tears, a label does not tell where its lumen ends.
@@ -268,6 +290,7 @@ void motion(const MotionCase& c, bool overwrite, MPI_Comm comm, const files::Say
   const auto order = parallel::agree(comm, [&] { return order_of(c); });
   parallel::on_root(comm, [&] {
     refuse_folder(c, order, overwrite);
+    if (c.phases.labels) check_labels(order.files);
     lock.emplace(c.output);
     if (!lock->taken_over().empty()) say("warning: " + lock->taken_over());
     files::try_outputs(c.output, {"curves.csv", "stations.csv", "motion.json"});

@@ -91,7 +91,8 @@ std::vector<OpeningHistory> read_openings(const std::filesystem::path& results, 
       throw InputError(
           table.file.string(),
           fmt::format("has {} lines between {:.6g} s and {:.6g} s", history.times.size(), window.from, window.until),
-          "put back the history that belongs to the fields");
+          "make the window of `post` longer (`from`, `until`, `period`), or, where the run wrote more, put back the "
+          "history that belongs to the fields");
     openings.push_back(std::move(history));
   }
   return openings;

@@ -198,7 +198,24 @@ std::vector<std::string> parts_of_false_lumen(const LumenFlows& lumens) {
   return parts;
 }
 
-ordered_json mass_balance(const LumenFlows& lumens) {
+/// Flows below this share of the largest through an opening are zero to the accuracy of the solver: a lumen that only
+/// such flows enter has no ejection fraction, and no balance to set against them.
+constexpr double still_share = 1e-6;
+
+double largest_opening_flow(const Findings& f) {
+  double largest = 0;
+  for (const auto& opening : f.openings)
+    for (const double flow : opening.flow) largest = std::max(largest, std::abs(flow));
+  return largest;
+}
+
+/// Null where the denominator is as good as zero.
+ordered_json ratio(double numerator, double denominator, double zero) {
+  return denominator > zero ? ordered_json(numerator / denominator) : ordered_json(nullptr);
+}
+
+/// `still`: flow that counts as none [m^3/s].
+ordered_json mass_balance(const LumenFlows& lumens, double still) {
   double largest_flow = 0, largest_rest = 0, squares = 0, largest_leakage = 0;
   for (const double leakage : lumens.leakage) largest_leakage = std::max(largest_leakage, std::abs(leakage));
   const auto weights = analysis::trapezoid_weights(lumens.times);
@@ -212,7 +229,7 @@ ordered_json mass_balance(const LumenFlows& lumens) {
           {"largest_wall_leakage_ml_s", largest_leakage / unit::ml},
           {"largest_residual_ml_s", largest_rest / unit::ml},
           {"rms_residual_ml_s", std::sqrt(squares / (lumens.times.back() - lumens.times.front())) / unit::ml},
-          {"largest_residual_of_largest_flow", largest_rest / largest_flow}};
+          {"largest_residual_of_largest_flow", ratio(largest_rest, largest_flow, still)}};
 }
 
 ordered_json course_ml(const analysis::Course& c) {
@@ -236,8 +253,10 @@ ordered_json false_lumen(const Findings& f) {
   const auto& entry = lumens.tears[lumens.entry()];
   const auto flow = analysis::course(lumens.times, entry.flow);
   report["entry_tear"] = entry.place.name;
-  report["ejection_fraction"] = flow.backward / flow.forward;
-  report["mass_balance"] = mass_balance(lumens);
+  const double still = still_share * largest_opening_flow(f);
+  report["ejection_fraction"] =
+      ratio(flow.backward, flow.forward, still * (lumens.times.back() - lumens.times.front()));
+  report["mass_balance"] = mass_balance(lumens, still);
   return report;
 }
 

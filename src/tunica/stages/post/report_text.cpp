@@ -57,9 +57,13 @@ std::string lumens_text(const ordered_json& r) {
                           number(t["volume_into_false_lumen_ml"], 7, 3),
                           number(t["volume_out_of_false_lumen_ml"], 7, 3), t["entry"].get<bool>() ? "  (entry)" : "");
     const auto& f = r["false_lumen"];
-    text += fmt::format("  ejection fraction of the false lumen {}; mass balance closed to {} % of the largest flow\n",
-                        number(f["ejection_fraction"], 0, 3),
-                        number(100 * f["mass_balance"]["largest_residual_of_largest_flow"].get<double>(), 0, 4));
+    const auto& closed = f["mass_balance"]["largest_residual_of_largest_flow"];
+    if (closed.is_null())
+      text += "  no blood flows in the false lumen: less than a millionth of what enters the vessel passes its tears\n";
+    else
+      text +=
+          fmt::format("  ejection fraction of the false lumen {}; mass balance closed to {} % of the largest flow\n",
+                      number(f["ejection_fraction"], 0, 3), number(100 * closed.get<double>(), 0, 4));
   }
   double least = 0, most = 0;
   bool any = false;
