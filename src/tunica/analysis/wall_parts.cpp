@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 
 namespace tunica::analysis {
 
@@ -21,7 +23,9 @@ std::vector<WallPart> wall_parts(const RunDescription& run, const mesh::MeshData
     if (depth == data.fields.end()) continue;  // of a mesh that was read without it
     std::vector<WallPart> layers(borders->beyond.size() + 1);
     for (const auto e : whole.elements) {
-      const double at = depth->values[static_cast<std::size_t>(e)];
+      const auto n = static_cast<std::size_t>(depth->components);  // of the element, or of its corners
+      const auto values = std::span(depth->values).subspan(n * static_cast<std::size_t>(e), n);
+      const double at = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(n);
       const auto layer =
           std::count_if(borders->beyond.begin(), borders->beyond.end(), [&](double d) { return d <= at; });
       layers[static_cast<std::size_t>(layer)].elements.push_back(e);

@@ -16,8 +16,11 @@ struct WallGroupView {
   wall::LawKind kind;
   std::span<const wall::Law* const> laws;
   const double* weights = nullptr;  ///< of the laws [batch][law][lane], null for one law
-  const double* bodies = nullptr;   ///< density, K, shear modulus at rest and present one [batch][4][lane]
-  const double* frames = nullptr;   ///< e1 and e2 of the fibre frame [batch][6][lane], null for global axes
+  /// Of quadratic elements whose materials have another share at each point: weights [batch][point][law][lane] and K
+  /// [Pa, batch][point][lane]; null where they have not.
+  const double *point_weights = nullptr, *point_bulk_moduli = nullptr;
+  const double* bodies = nullptr;  ///< density, K, shear modulus at rest and present one [batch][4][lane]
+  const double* frames = nullptr;  ///< e1 and e2 of the fibre frame [batch][6][lane], null for global axes
   /// In the axes of the frame: S0 [Pa, batch][point][6][lane] or F0 [batch][point][9][lane]; null without.
   const double *prestress = nullptr, *prestretch = nullptr;
 };

@@ -39,9 +39,9 @@ wall::ElementState<double> linear_wall_element(const distributed::DistributedMes
   return e;
 }
 
-wall::Symmetric<double> stress_of_law(const WallModel& model, std::size_t region, std::int32_t element,
+wall::Symmetric<double> stress_of_law(const WallModel& model, const WallModel::ElementMaterial& material,
                                       const wall::ElementState<double>& state) {
-  const auto [law, body] = model.material(region, element);
+  const auto& [law, body] = material;
   return model.mixed() ? wall::mixed_cauchy_stress(state, law) : wall::displacement_cauchy_stress(state, law, body);
 }
 
@@ -83,7 +83,7 @@ wall::ElementState<double> wall_point(const distributed::DistributedMesh& mesh, 
 
 wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element,
                                       const wall::ElementState<double>& state) {
-  const auto sigma = stress_of_law(model, region, element, state);
+  const auto sigma = stress_of_law(model, model.material(region, element), state);
   if (model.prestress().kind != wall::PrestressKind::stress) return sigma;
   wall::Symmetric<double> sum{};
   for (int q = 0; q < model.prestress_points(); ++q) sum = sum + model.prestress(region, element, q);
@@ -92,7 +92,7 @@ wall::Symmetric<double> cauchy_stress(const WallModel& model, std::size_t region
 
 wall::Symmetric<double> point_cauchy_stress(const WallModel& model, std::size_t region, std::int32_t element, int point,
                                             const wall::ElementState<double>& state) {
-  const auto sigma = stress_of_law(model, region, element, state);
+  const auto sigma = stress_of_law(model, model.material(region, element, point), state);
   if (model.prestress().kind != wall::PrestressKind::stress) return sigma;
   return sigma + wall::prestress_cauchy_stress(state, model.prestress(region, element, point));
 }

@@ -85,6 +85,9 @@ TUNICA_INLINE auto law_of(const WallGroupView& group, std::int32_t batch) {
     law.weights = group.weights == nullptr ? nullptr
                                            : group.weights + static_cast<std::ptrdiff_t>(batch) *
                                                                  static_cast<std::ptrdiff_t>(group.laws.size()) * W;
+    if (group.point_weights != nullptr)
+      law.point_weights = group.point_weights + static_cast<std::ptrdiff_t>(batch) * wall::quadratic::points *
+                                                    static_cast<std::ptrdiff_t>(group.laws.size()) * W;
     law.shear_modulus = Pack<W>::load(values + 2 * W);
     law.stabilising_modulus = Pack<W>::load(values + 3 * W);
     return law;
@@ -95,9 +98,13 @@ template <int W>
 TUNICA_INLINE wall::BodyOf<Pack<W>> body_of(const WallGroupView& group, std::int32_t batch,
                                             const WallElementSettings& settings) {
   const double* values = group.bodies + static_cast<std::ptrdiff_t>(batch) * 4 * W;
-  return {.density = Pack<W>::load(values),
-          .volumetric = {settings.volumetric_energy, Pack<W>::load(values + W)},
-          .stabilisation = settings.stabilisation};
+  return {
+      .density = Pack<W>::load(values),
+      .volumetric = {settings.volumetric_energy, Pack<W>::load(values + W)},
+      .stabilisation = settings.stabilisation,
+      .bulk_moduli = group.point_bulk_moduli == nullptr
+                         ? nullptr
+                         : group.point_bulk_moduli + static_cast<std::ptrdiff_t>(batch) * wall::quadratic::points * W};
 }
 
 template <int W, wall::LawKind kind, bool mixed, bool with_tangent>

@@ -83,6 +83,8 @@ WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Param
   for (const auto& [name, region] : parameters.regions)
     add_all("wall region " + name, region.material, region.composition, region.density.value_or(parameters.density));
 
+  weight_points_ = weight_points(mesh, compositions);
+  const std::size_t rows = 1 + static_cast<std::size_t>(weight_points_);
   const auto shares =
       material_weights(mesh, compositions,
                        blend_regions(mesh, material_of_regions(mesh, parameters), static_cast<int>(compositions.size()),
@@ -94,14 +96,16 @@ WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Param
     RegionModel& region = regions_[r];
     if (anisotropic) region.frames = fibre_frames(mesh, mesh.regions[r], parameters.fibre_frame.value());
     for (std::size_t e = 0; e < mesh.regions[r].elements.size(); ++e) {
-      const double* weights = shares[r].data() + e * laws_.size();
+      const double* weights = shares[r].data() + e * rows * laws_.size();
       std::vector<std::size_t> present;
+      for (std::size_t m = 0; m < laws_.size(); ++m) {
+        bool any = false;
+        for (std::size_t k = 0; k < rows; ++k) any |= weights[k * laws_.size() + m] > 0.0;
+        if (any) present.push_back(m);
+      }
       region.weights.push_back(weights_.size());
-      for (std::size_t m = 0; m < laws_.size(); ++m)
-        if (weights[m] > 0.0) {
-          present.push_back(m);
-          weights_.push_back(weights[m]);
-        }
+      for (std::size_t k = 0; k < rows; ++k)
+        for (const std::size_t m : present) weights_.push_back(weights[k * laws_.size() + m]);
       const auto [blend, is_new] = known.emplace(present, static_cast<std::int32_t>(blends_.size()));
       if (is_new) {
         Blend& b = blends_.emplace_back();
@@ -109,8 +113,11 @@ WallModel::WallModel(const distributed::DistributedMesh& mesh, const wall::Param
         for (const std::size_t m : present) b.laws.push_back(&laws_[m]);
       }
       region.blend.push_back(blend->second);
-      region.present_modulus.push_back(
-          blended(shear_moduli_, blends_[blend->second], weights_.data() + region.weights[e]));
+      const Blend& b = blends_[static_cast<std::size_t>(blend->second)];
+      region.present_modulus.push_back(blended(shear_moduli_, b, weights_.data() + region.weights[e]));
+      for (std::size_t k = 1; k < rows; ++k)
+        region.point_bulk_moduli.push_back(
+            blended(bulk_moduli_, b, weights_.data() + region.weights[e] + k * present.size()));
     }
   }
   if (const auto kind = kind_in_mesh(mesh); kind != wall::PrestressKind::none)
@@ -124,7 +131,8 @@ double WallModel::shear_modulus_at_rest() const {
 double WallModel::blended(const std::vector<double>& of_material, const Blend& blend, const double* weights) const {
   if (blend.materials.size() == 1) return of_material[blend.materials[0]];
   double sum = 0.0;
-  for (std::size_t i = 0; i < blend.materials.size(); ++i) sum += weights[i] * of_material[blend.materials[i]];
+  for (std::size_t i = 0; i < blend.materials.size(); ++i)
+    if (weights[i] > 0.0) sum += weights[i] * of_material[blend.materials[i]];  // 0 of an infinite K is nothing
   return sum;
 }
 
@@ -133,13 +141,24 @@ WallModel::ElementMaterial WallModel::material(std::size_t region, std::int32_t 
   const double* weights = weights_.data() + regions_[region].weights[element];
   ElementMaterial m;
   m.law.laws = blend.laws;
-  m.law.weights = blend.laws.size() == 1 ? nullptr : weights;
+  if (blend.laws.size() > 1) {
+    m.law.weights = weights;
+    if (weight_points_ > 0) m.law.point_weights = weights + blend.laws.size();
+  }
   m.law.shear_modulus = blended(shear_moduli_, blend, weights);
   m.law.stabilising_modulus = regions_[region].present_modulus[element];
   m.body = {.density = blended(densities_, blend, weights),
             .volumetric = {volumetric_energy_, blended(bulk_moduli_, blend, weights)},
             .stabilisation = stabilisation_};
+  if (weight_points_ > 0)
+    m.body.bulk_moduli = regions_[region].point_bulk_moduli.data() +
+                         static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(weight_points_);
   return m;
+}
+
+WallModel::ElementMaterial WallModel::material(std::size_t region, std::int32_t element, int point) const {
+  const auto m = material(region, element);
+  return {m.law.at_point(point), m.body.at_point(point)};
 }
 
 double WallModel::weight(std::size_t region, std::int32_t element, std::size_t material) const {
@@ -247,6 +266,8 @@ WallGroupView WallModel::Group::view() const {
           .kind = kind,
           .laws = laws,
           .weights = weights.empty() ? nullptr : weights.data(),
+          .point_weights = point_weights.empty() ? nullptr : point_weights.data(),
+          .point_bulk_moduli = point_bulk_moduli.empty() ? nullptr : point_bulk_moduli.data(),
           .bodies = bodies.data(),
           .frames = frames.empty() ? nullptr : frames.data(),
           .prestress = prestress.empty() ? nullptr : prestress.data(),
@@ -269,6 +290,9 @@ std::vector<WallModel::Group> WallModel::groups(const distributed::DistributedMe
       group.region = region;
       group.batches = make_batches(mesh, mesh.regions[region], std::move(list), pattern, width, split);
       group.kind = wall::kind_of(blend.laws);
+      const bool at_points = weight_points_ > 0 && blend.laws.size() > 1;
+      // One neo-Hookean law stands for a blend of several only where their weights are the same at all points.
+      if (at_points && group.kind == wall::LawKind::linear) group.kind = wall::LawKind::isochoric;
       group.laws = blend.laws;
       const auto& members = group.batches.elements_of_region;
       for (std::int32_t batch = 0; batch < group.batches.batches(); ++batch) {
@@ -281,6 +305,13 @@ std::vector<WallModel::Group> WallModel::groups(const distributed::DistributedMe
         if (blend.laws.size() > 1)
           for (std::size_t i = 0; i < blend.laws.size(); ++i)
             add(group.weights, [&](std::int32_t e) { return weights(e)[i]; });
+        const auto points = static_cast<std::size_t>(at_points ? weight_points_ : 0);
+        for (std::size_t q = 0; q < points; ++q) {
+          for (std::size_t i = 0; i < blend.laws.size(); ++i)
+            add(group.point_weights, [&](std::int32_t e) { return weights(e)[(1 + q) * blend.laws.size() + i]; });
+          add(group.point_bulk_moduli,
+              [&](std::int32_t e) { return model.point_bulk_moduli[static_cast<std::size_t>(e) * points + q]; });
+        }
         for (const auto* property : {&densities_, &bulk_moduli_, &shear_moduli_})
           add(group.bodies, [&](std::int32_t e) { return blended(*property, blend, weights(e)); });
         add(group.bodies, [&](std::int32_t e) { return model.present_modulus[e]; });

@@ -33,6 +33,8 @@ class WallModel {
     wall::Body body;
   };
   ElementMaterial material(std::size_t region, std::int32_t element) const;
+  /// At a point (prestress_points): of quadratic elements in layers, materials have another share at each.
+  ElementMaterial material(std::size_t region, std::int32_t element, int point) const;
 
   /// The element with the corners X [m] in the imaged shape: gradients in its fibre frame, or in global axes where no
   /// law needs one.
@@ -62,8 +64,10 @@ class WallModel {
     std::vector<const wall::Law*> laws;
     std::size_t region;           ///< of the mesh
     std::vector<double> weights;  ///< [batch][law][lane], empty for one law
-    std::vector<double> bodies;   ///< [batch][density, K, mu at rest, mu present][lane]
-    std::vector<double> frames;   ///< [batch][6][lane], empty without frames
+    /// [batch][point][law][lane] and K [batch][point][lane]; empty where they are the same at all points.
+    std::vector<double> point_weights, point_bulk_moduli;
+    std::vector<double> bodies;  ///< [batch][density, K, mu at rest, mu present][lane]
+    std::vector<double> frames;  ///< [batch][6][lane], empty without frames
     /// Of the kind that the model has [batch][point][component][lane], axes of the frames; empty without.
     std::vector<double> prestress, prestretch;
 
@@ -88,8 +92,10 @@ class WallModel {
     std::vector<const wall::Law*> laws;
   };
   struct RegionModel {
-    std::vector<std::int32_t> blend;   ///< [element] in blends_
-    std::vector<std::size_t> weights;  ///< [element] begin in weights_
+    std::vector<std::int32_t> blend;  ///< [element] in blends_
+    /// [element] begin in weights_: of one law for each material, [centroid, then weight_points_][material].
+    std::vector<std::size_t> weights;
+    std::vector<double> point_bulk_moduli;  ///< [element][weight_points_] [Pa]
     std::vector<double> frames;
     std::vector<double> present_modulus;  ///< [element] [Pa]
   };
@@ -110,7 +116,8 @@ class WallModel {
   std::vector<double> weights_;
   std::vector<RegionModel> regions_;  ///< [region of the mesh], empty for the lumen
   WallPrestress prestress_;
-  int points_;  ///< of an element that have a prestress each
+  int points_;             ///< of an element that have a prestress each
+  int weight_points_ = 0;  ///< of an element at which materials have a weight each
 };
 
 }  // namespace tunica::coupling

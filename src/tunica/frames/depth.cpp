@@ -23,11 +23,8 @@ std::vector<double> depths(const ElementGraph& graph, const std::vector<std::str
   });
   const auto solution = solve_laplace(mesh, Domain::wall, conditions, "depth in the wall");
   std::vector<double> depth;
-  for (std::int32_t e = 0; e < graph.owned(); ++e) {
-    double sum = 0.0;
-    for (const auto node : graph.nodes(e)) sum += 0.25 * solution.phi[static_cast<std::size_t>(node)];
-    depth.push_back(sum);
-  }
+  for (std::int32_t e = 0; e < graph.owned(); ++e)
+    for (const auto node : graph.nodes(e)) depth.push_back(solution.phi[static_cast<std::size_t>(node)]);
   return depth;
 }
 

@@ -73,11 +73,18 @@ __attribute__((noinline)) Response<T> evaluate_unsplit_response(const Law& law, 
 template <class T>
 struct BlendedLaw {
   std::span<const Law* const> laws;
-  const double* weights = nullptr;  ///< [law][lane], summing to one; null for a single law
-  T shear_modulus;                  ///< blended, at rest [Pa]
-  T stabilising_modulus;            ///< of the present state, (1.16) [Pa]
+  const double* weights = nullptr;        ///< [law][lane], summing to one; null for a single law
+  const double* point_weights = nullptr;  ///< the same at each point [point][law][lane]; null: everywhere as `weights`
+  T shear_modulus;                        ///< blended, at rest [Pa]
+  T stabilising_modulus;                  ///< of the present state, (1.16) [Pa]
 
   TUNICA_INLINE T shear_modulus_at_rest() const { return shear_modulus; }
+
+  TUNICA_INLINE BlendedLaw at_point(int q) const {
+    BlendedLaw law = *this;
+    law.go_to_point(q);
+    return law;
+  }
 
   T energy(const Symmetric<T>& C_bar) const {
     return sum_of([&](const Law& law) { return std::visit([&](const auto& l) { return l.energy(C_bar); }, law); });
@@ -90,6 +97,9 @@ struct BlendedLaw {
   }
 
  protected:
+  TUNICA_INLINE void go_to_point(int q) {
+    if (point_weights != nullptr) weights = point_weights + q * static_cast<std::ptrdiff_t>(laws.size()) * lanes<T>;
+  }
   TUNICA_INLINE T weight(std::size_t i) const {
     if constexpr (lanes<T> == 1)
       return weights[i];
@@ -136,6 +146,12 @@ struct BlendedLaw {
 template <class T>
 struct UnsplitBlendedLaw : BlendedLaw<T> {
   bool has_unsplit_part() const { return true; }
+
+  TUNICA_INLINE UnsplitBlendedLaw at_point(int q) const {
+    UnsplitBlendedLaw law = *this;
+    law.go_to_point(q);
+    return law;
+  }
 
   T unsplit_energy(const Symmetric<T>& C) const {
     return this->sum_of([&](const Law& law) {

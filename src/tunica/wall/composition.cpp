@@ -32,7 +32,8 @@ config::Schema<Layer> Layer::schema() {
 config::Schema<Layers> Layers::schema() {
   return config::Schema<Layers>("layers", "Layers of the wall; `material` beside them is the innermost.")
       .text("depth", &Layers::depth,
-            "Cell array, 0 at the inner and 1 at the outer surface; `tunica fibres` writes `depth`")
+            "Cell array, 0 at the inner and 1 at the outer surface, one value or one for each corner of an element; "
+            "`tunica fibres` writes `depth`")
       .number("blending", &Layers::blending, config::range(0, 0.5),
               "Depth over which one layer turns into the next; 0: they jump")
       .by_default()

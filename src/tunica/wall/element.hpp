@@ -51,6 +51,17 @@ struct BodyOf {
   Scalar density = 0.0;                          ///< rho_0, reference [kg/m^3]
   VolumetricOf<Scalar> volumetric;               ///< energy and K
   double stabilisation = default_stabilisation;  ///< c > 0, mixed element only [-]
+  const double* bulk_moduli = nullptr;           ///< of quadratic elements [point][lane]; null: K at all points [Pa]
+
+  TUNICA_INLINE BodyOf at_point(int q) const {
+    if (bulk_moduli == nullptr) return *this;
+    BodyOf body = *this;
+    if constexpr (lanes<Scalar> == 1)
+      body.volumetric.bulk_modulus = bulk_moduli[q];
+    else
+      body.volumetric.bulk_modulus = Scalar::load(bulk_moduli + q * lanes<Scalar>);
+    return body;
+  }
 };
 using Body = BodyOf<double>;
 

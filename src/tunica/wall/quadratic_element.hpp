@@ -239,12 +239,21 @@ struct PointTangent {
   Vec3<T> dilation[fe::nodes];  ///< V J grad_x l_a
   T slope;                      ///< s du/dx dg/dJ
   T push;                       ///< of the pressure, times the dilation [-]
-  T volume;                     ///< share of the stress-free one [m^3]
+  T spring;                     ///< s/K times the share of the stress-free volume
 };
 
-/// Row a, pressure parts of the mixed element; `spring`: s/K.
+/// The law at a point: that of the element, unless its materials have another share at each.
+template <class L>
+TUNICA_INLINE decltype(auto) law_at(const L& law, int q) {
+  if constexpr (requires { law.at_point(q); })
+    return law.at_point(q);
+  else
+    return (law);
+}
+
+/// Row a, pressure parts of the mixed element.
 template <class T>
-inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, const T& spring, TangentRow<T>& row) {
+inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, TangentRow<T>& row) {
   const Vec3<T> zero{{T(0.0), T(0.0), T(0.0)}};
   for (Vec3<T>& column : row.pressure) column = zero;
   for (int q = 0; q < points; ++q) {
@@ -257,9 +266,9 @@ inline void pressure_of_row(const PointTangent<T> (&tangents)[points], int a, co
     T mass(0.0);
     for (int q = 0; q < points; ++q) {
       const auto& point = fe::quadratic_four_points[q];
-      mass += T(point.barycentric[a] * point.barycentric[b]) * tangents[q].volume;
+      mass += T(point.barycentric[a] * point.barycentric[b]) * tangents[q].spring;
     }
-    row.compressibility[b] = spring * mass;
+    row.compressibility[b] = mass;
   }
   for (int b = 0; b < nodes; ++b) {
     row.constraint[b] = zero;
@@ -300,10 +309,12 @@ inline void residual(const ElementState<T>& e, const L& law, const BodyOf<U>& bo
     const wall::ElementState<T> s = at_point(e, q, prestress);
     const Kinematics<T> k = kinematics(s);
     fe::ElementVector<T> force;
-    detail::point_forces(s, k, law, detail::isotropic_stress<mixed>(s, k.J, law, body).pi, prestress.stress_of(q),
-                         force);
+    const auto& here = detail::law_at(law, q);
+    const auto body_here = body.at_point(q);
+    detail::point_forces(s, k, here, detail::isotropic_stress<mixed>(s, k.J, here, body_here).pi,
+                         prestress.stress_of(q), force);
     detail::spread(force, point, r);
-    if constexpr (mixed) detail::add_constraint(s, k.J, point, body, c.constraint, r);
+    if constexpr (mixed) detail::add_constraint(s, k.J, point, body_here, c.constraint, r);
   }
 }
 
@@ -319,25 +330,26 @@ inline void tangent(const ElementState<T>& e, const L& law, const BodyOf<U>& bod
     const auto& point = fe::quadratic_four_points[q];
     const wall::ElementState<T> s = at_point(e, q, prestress);
     const Kinematics<T> k = kinematics(s);
-    const auto isotropic = detail::isotropic_stress<mixed>(s, k.J, law, body);
+    const auto& here = detail::law_at(law, q);
+    const auto body_here = body.at_point(q);
+    const auto isotropic = detail::isotropic_stress<mixed>(s, k.J, here, body_here);
     fe::ElementVector<T> force;
-    detail::point_tangent(s, k, law, isotropic.pi, isotropic.kappa, c.displacement, prestress.stress_of(q), force,
+    detail::point_tangent(s, k, here, isotropic.pi, isotropic.kappa, c.displacement, prestress.stress_of(q), force,
                           tangents[q].stiffness);
     detail::spread(force, point, r);
     if constexpr (mixed) {
-      detail::add_constraint(s, k.J, point, body, c.constraint, r);
+      detail::add_constraint(s, k.J, point, body_here, c.constraint, r);
       for (int a = 0; a < fe::nodes; ++a) tangents[q].dilation[a] = (s.reference.volume * k.J) * k.dN_x[a];
-      tangents[q].volume = s.reference.volume;
+      tangents[q].spring = T(c.constraint) * T(body_here.volumetric.compressibility()) * s.reference.volume;
       tangents[q].push = isotropic.pressure;
       tangents[q].slope = T(c.constraint * c.displacement) * body.volumetric.unit_stiffness(k.J);
     }
   }
   const T mass = T(c.acceleration) * rest_mass;
-  const T spring = T(c.constraint) * T(body.volumetric.compressibility());
   for (int a = 0; a < nodes; ++a) {
     TangentRow<T> row;
     detail::motion_of_row(tangents, a, mass, row);
-    if constexpr (mixed) detail::pressure_of_row(tangents, a, spring, row);
+    if constexpr (mixed) detail::pressure_of_row(tangents, a, row);
     take(a, row);
   }
 }

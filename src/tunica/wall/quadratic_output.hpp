@@ -33,13 +33,15 @@ inline T strain_energy(const ElementState<T>& e, const L& law, const Body& body,
   T sum(0.0);
   for (int q = 0; q < points; ++q) {
     const wall::ElementState<T> s = at_point(e, q, prestress);
+    const auto& here = detail::law_at(law, q);
+    const auto body_here = body.at_point(q);
     if constexpr (mixed) {
       const T J = determinant(deformation_gradient(s));
-      const T c = body.volumetric.unit_pressure(J) + body.volumetric.compressibility() * s.pressure[0];
-      sum += mixed_strain_energy(s, law, body);  // without the subscale, as there is no gradient of p
-      sum += T(0.5) * s.reference.volume * detail::augmentation<T>(law, body) * c * c;
+      const T c = body_here.volumetric.unit_pressure(J) + body_here.volumetric.compressibility() * s.pressure[0];
+      sum += mixed_strain_energy(s, here, body_here);  // without the subscale, as there is no gradient of p
+      sum += T(0.5) * s.reference.volume * detail::augmentation<T>(here, body_here) * c * c;
     } else
-      sum += displacement_strain_energy(s, law, body);
+      sum += displacement_strain_energy(s, here, body_here);
     if (const auto* S0 = prestress.stress_of(q)) sum += prestress_energy(s, *S0);
   }
   return sum;

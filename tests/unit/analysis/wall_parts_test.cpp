@@ -48,6 +48,20 @@ TEST(WallParts, LayersFollowTheirRegion) {
   EXPECT_EQ(run.depths(), std::vector<std::string>{"depth"});
 }
 
+TEST(WallParts, DepthsAtCornersCountByTheirMean) {
+  auto data = strips();
+  auto& depth = data.fields[0];
+  std::vector<double> corners;
+  for (const double d : depth.values)
+    for (const double off : {-0.04, 0.04, -0.02, 0.02}) corners.push_back(d + off);
+  depth = {"depth", 4, corners};
+  auto run = wall_alone();
+  run.layers = LayerBorders{"depth", {0.2, 0.7}};
+  run.layers_of_region["flap"] = std::nullopt;
+  EXPECT_EQ(sizes(wall_parts(run, data)),
+            (Sizes{{"wall", 10}, {"wall layer 1", 2}, {"wall layer 2", 5}, {"wall layer 3", 3}, {"flap", 10}}));
+}
+
 TEST(WallParts, LayersWithoutElementsAreLeftOut) {
   auto run = wall_alone();
   run.layers_of_region["flap"] = LayerBorders{"depth", {0.0, 0.5}};

@@ -169,7 +169,7 @@ MadeFibres make_fibres(const case_file::FibresCase& c, artifacts::CheckedMesh lo
   const auto frames = frames::make_frames(graph, roles, c.frames);
   auto fields = gather_frames(c, graph, frames);
   if (!c.outer.empty())
-    fields.push_back(Gatherer(mesh)(array_depth, 1, frames::depths(graph, c.inner_faces(), c.outer)));
+    fields.push_back(Gatherer(mesh)(array_depth, 4, frames::depths(graph, c.inner_faces(), c.outer)));
   ReportInput input{.data = loaded.data, .inlet = roles.inlet, .outlets = roles.outlets};
   if (c.tears) {
     phases.begin("tears");
