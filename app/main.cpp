@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "output.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/config/nearest.hpp"
+#include "tunica/parallel/launcher.hpp"
 #include "version.hpp"
 
 namespace {
@@ -44,6 +46,19 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   throw tunica::InputError(
       argv[1], "is no command of tunica",
       meant.empty() ? "see `tunica --help` for all commands" : "did you mean `tunica " + meant + "`?");
+}
+
+/// These work on one process: of several that mpirun has started the first one does it, and the others leave.
+bool is_left_to_the_first(int argc, char** argv) {
+  constexpr const char* serial[] = {"completion", "fit",  "import", "manual", "material", "mesh",
+                                    "picture",    "plot", "schema", "vary",   "verify"};
+  const bool alone =
+      argc > 1 && std::find(std::begin(serial), std::end(serial), std::string(argv[1])) != std::end(serial);
+  const long rank = alone ? tunica::parallel::rank_from_launcher() : 0;
+  if (rank == 1)
+    std::fprintf(stderr, "tunica %s works on one process: the others that mpirun has started leave it to the first\n",
+                 argv[1]);
+  return rank > 0;
 }
 
 int run(int argc, char** argv) {
@@ -104,6 +119,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (is_left_to_the_first(argc, argv)) return 0;
   hold_on_to_streams();
   tunica::app::let_writes_beyond_limits_fail();
   return tunica::app::with_standard_output(run(argc, argv));

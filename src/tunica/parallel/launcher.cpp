@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "tunica/base/error.hpp"
@@ -16,6 +17,12 @@ long number(const Environment& environment, const char* name) {
   if (!text || text->empty() || text->find_first_not_of("0123456789") != std::string::npos || text->size() > 9)
     return -1;
   return std::stol(*text);
+}
+
+std::optional<std::string> of_process(const char* name) {
+  const char* value = std::getenv(name);
+  if (value == nullptr) return std::nullopt;
+  return value;
 }
 
 }  // namespace
@@ -37,12 +44,17 @@ std::string sign_of_another_launcher(int ranks, const Environment& environment) 
   return {};
 }
 
+long rank_from_launcher(const Environment& environment) {
+  for (const char* told : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "PMIX_RANK"})
+    if (const long rank = number(environment, told); rank >= 0) return rank;
+  // In a batch script, too; there it is 0.
+  return std::max(0L, number(environment, "SLURM_PROCID"));
+}
+
+long rank_from_launcher() { return rank_from_launcher(of_process); }
+
 void refuse_another_launcher(int ranks) {
-  const std::string sign = sign_of_another_launcher(ranks, [](const char* name) -> std::optional<std::string> {
-    const char* value = std::getenv(name);
-    if (value == nullptr) return std::nullopt;
-    return value;
-  });
+  const std::string sign = sign_of_another_launcher(ranks, of_process);
   if (sign.empty()) return;
   throw InputError(
       "the launcher of this program",

@@ -15,6 +15,11 @@ using Environment = std::function<std::optional<std::string>(const char* name)>;
 /// an allocation of a batch system is none of N.
 std::string sign_of_another_launcher(int ranks, const Environment& environment);
 
+/// Number of this process among those that a launcher has started, as its environment tells it before MPI begins; 0 for
+/// a process that was started alone.
+long rank_from_launcher(const Environment& environment);
+long rank_from_launcher();
+
 /// Throws InputError when there is such a sign in the environment of this process.
 void refuse_another_launcher(int ranks);
 

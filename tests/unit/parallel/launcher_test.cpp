@@ -24,6 +24,20 @@ TEST(Launcher, OfAnotherMpiIsNoticed) {
   EXPECT_EQ(sign({{"SLURM_STEP_NUM_TASKS", "16"}, {"SLURM_PROCID", "0"}}), "SLURM_STEP_NUM_TASKS=16");
 }
 
+TEST(Launcher, TellsTheNumberOfAProcess) {
+  const auto rank = [](const std::map<std::string, std::string>& variables) {
+    return rank_from_launcher([&](const char* name) -> std::optional<std::string> {
+      const auto at = variables.find(name);
+      return at == variables.end() ? std::nullopt : std::optional(at->second);
+    });
+  };
+  EXPECT_EQ(rank({}), 0);
+  EXPECT_EQ(rank({{"OMPI_COMM_WORLD_RANK", "0"}, {"PMIX_RANK", "0"}}), 0);
+  EXPECT_EQ(rank({{"OMPI_COMM_WORLD_RANK", "3"}}), 3);
+  EXPECT_EQ(rank({{"PMI_RANK", "2"}}), 2);
+  EXPECT_EQ(rank({{"SLURM_PROCID", "1"}, {"SLURM_STEP_NUM_TASKS", "4"}}), 1);
+}
+
 TEST(Launcher, SerialProcessesAndOwnRanksAreFine) {
   EXPECT_EQ(sign({}), "");
   EXPECT_EQ(sign({{"PMI_SIZE", "4"}}, 4), "") << "this MPI counts them too";
