@@ -65,13 +65,17 @@ class Change {
 
   // --- closing ------------------------------------------------------------------------------------------------------
 
+  const std::vector<double>* node_field(const char* name) const {
+    const auto found =
+        std::find_if(data_.node_fields.begin(), data_.node_fields.end(), [&](const auto& f) { return f.name == name; });
+    return found == data_.node_fields.end() ? nullptr : &found->values;
+  }
   const std::vector<double>& side() const {
-    const auto found = std::find_if(data_.node_fields.begin(), data_.node_fields.end(),
-                                    [](const auto& f) { return f.name == mesh::lumen_side; });
-    if (found == data_.node_fields.end())
+    const auto* side = node_field(mesh::lumen_side);
+    if (side == nullptr)
       throw InputError("close_tears", "nothing tells true and false lumen of this mesh apart",
                        "see `lumens` in docs/post.md");
-    return found->values;
+    return *side;
   }
 
   std::size_t tear_named(const std::string& name) const {
@@ -127,14 +131,21 @@ class Change {
     }
     result_.remarks.push_back(fmt::format("{} of {:.0f} mm^2 at {:.0f} mm is closed by {} elements, {:.0f} mm^3",
                                           anatomy_.tears[tear].name, 1e6 * anatomy_.tears[tear].area,
-                                          1e3 * anatomy_.tears[tear].s, across()[tear].size(), 1e9 * volume));
+                                          1e3 * distance_of_tear(tear), across()[tear].size(), 1e9 * volume));
   }
 
   // --- a sleeve -----------------------------------------------------------------------------------------------------
 
-  double arc_of(std::int64_t e) const {
+  /// As the stations have it, from the inlet [m].
+  double distance_along(std::int64_t e) const {
+    const auto& distance = *node_field(mesh::distance_along);
     double sum = 0;
-    for (const auto node : data_.tetrahedra[at(e)]) sum += 0.25 * anatomy_.nodes[at(node)].s;
+    for (const auto node : data_.tetrahedra[at(e)]) sum += 0.25 * distance[at(node)];
+    return sum;
+  }
+  double distance_of_tear(std::size_t tear) {
+    double sum = 0;
+    for (const auto e : across()[tear]) sum += distance_along(e) / static_cast<double>(across()[tear].size());
     return sum;
   }
 
@@ -146,7 +157,7 @@ class Change {
       const bool lined = std::find(sleeve.regions.begin(), sleeve.regions.end(), region.name) != sleeve.regions.end();
       if (region.kind != mesh::RegionKind::wall || !lined) continue;
       for (auto e = region.first_element; e < region.end_element; ++e)
-        if (anatomy_.in_aorta[at(e)] != 0 && arc_of(e) >= sleeve.from && arc_of(e) <= sleeve.to) {
+        if (const double s = distance_along(e); anatomy_.in_aorta[at(e)] != 0 && s >= sleeve.from && s <= sleeve.to) {
           to_.of_element[at(e)] = number;
           ++count;
         }
@@ -159,7 +170,7 @@ class Change {
     result_.remarks.push_back(fmt::format("the sleeve from {:.0f} to {:.0f} mm has {} elements of the wall",
                                           1e3 * sleeve.from, 1e3 * sleeve.to, count));
     for (std::size_t k = 0; k < anatomy_.tears.size(); ++k)
-      if (anatomy_.tears[k].s >= sleeve.from && anatomy_.tears[k].s <= sleeve.to) close(k, number);
+      if (const double s = distance_of_tear(k); s >= sleeve.from && s <= sleeve.to) close(k, number);
   }
 
   // --- opening ------------------------------------------------------------------------------------------------------
@@ -174,6 +185,7 @@ class Change {
                        "a tear is opened in a flap that the mesh has; name it in `post.flap`");
     const auto [middle, normal] = flap_at(*flap, tear.position);
     const double radius = std::sqrt(tear.area / M_PI);
+    refuse_overlap(tear, middle, radius);
     std::size_t count = 0;
     for (auto e = flap->first_element; e < flap->end_element; ++e) {
       const auto away = mesh::centroid(data_.points, data_.tetrahedra[at(e)]) - middle;
@@ -191,6 +203,24 @@ class Change {
                                           1e6 * tear.area, 1e3 * tear.position, count));
   }
 
+  /// One tear with another one would be one of another size.
+  void refuse_overlap(const PlannedTear& tear, const Vec3<double>& middle, double radius) {
+    const auto refuse = [&](const std::string& other) {
+      throw InputError(
+          "open_tears",
+          fmt::format("a tear of {:.0f} mm^2 at {:.0f} mm runs into {}", 1e6 * tear.area, 1e3 * tear.position, other),
+          "choose a smaller area or another place");
+    };
+    for (const auto& other : anatomy_.tears) {
+      if (std::find(change_.close_tears.begin(), change_.close_tears.end(), other.name) != change_.close_tears.end())
+        continue;
+      if (norm(other.centre - middle) < radius + std::sqrt(other.area / M_PI)) refuse(other.name);
+    }
+    for (const auto& [centre, other_radius] : opened_)
+      if (norm(centre - middle) < radius + other_radius) refuse("another one that is to be opened");
+    opened_.emplace_back(middle, radius);
+  }
+
   /// Middle of the flap at a place, and the direction from false to true lumen there.
   std::pair<Vec3<double>, Vec3<double>> flap_at(const mesh::RegionData& flap, double s) const {
     constexpr double near = 5e-3;
@@ -201,7 +231,7 @@ class Change {
       const bool of_flap = e >= flap.first_element && e < flap.end_element;
       const auto& lumen = data_.regions[at(lumen_)];
       const bool of_lumen = e >= lumen.first_element && e < lumen.end_element;
-      if (anatomy_.in_aorta[at(e)] == 0 || (!of_flap && !of_lumen) || std::abs(arc_of(e) - s) > near) continue;
+      if (anatomy_.in_aorta[at(e)] == 0 || (!of_flap && !of_lumen) || std::abs(distance_along(e) - s) > near) continue;
       const double v = mesh::volume(data_.points, data_.tetrahedra[at(e)]);
       const auto c = mesh::centroid(data_.points, data_.tetrahedra[at(e)]);
       const auto values = values_at(side, data_.tetrahedra[at(e)]);
@@ -260,6 +290,7 @@ class Change {
   mesh::Reassignment to_;
   std::int32_t lumen_ = -1;
   std::vector<std::vector<std::int64_t>> across_;
+  std::vector<std::pair<Vec3<double>, double>> opened_;  ///< middles and radii [m]
   ChangedMesh result_;
 };
 

@@ -241,6 +241,7 @@ void check_ends(const RunDescription& run, const PostSettings& settings, const m
   if (!run.fluid) return;
   sort_faces(run, data, vessel);
   find_ends(run, settings, data, vessel);
+  if (const auto* given = node_field(data, mesh::distance_along)) check_distances(data, vessel, *given);
 }
 
 void tell_lumens_apart(const RunDescription& run, const PostSettings& settings, mesh::MeshData& data, MPI_Comm comm) {

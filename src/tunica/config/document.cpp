@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <optional>
@@ -249,6 +250,14 @@ std::string commented_yaml(const Document& document, const Description& descript
   Writer writer;
   writer.section(&description, document.node(), 0);
   return writer.text;
+}
+
+std::string one_line(const Document& document) {
+  YAML::Emitter emitter;
+  emitter << YAML::Flow << document.node();
+  std::string text = emitter.c_str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 }  // namespace tunica::config

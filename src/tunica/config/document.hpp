@@ -71,6 +71,9 @@ Parsed<T> parse_document(const Schema<T>& schema, const Document& document, cons
 void move_paths(Document& document, const Description& description, const std::filesystem::path& from,
                 const std::filesystem::path& to);
 
+/// The document as one line of YAML.
+std::string one_line(const Document& document);
+
 /// The document as YAML, each section and key with the first sentence of its help as a comment.
 std::string commented_yaml(const Document& document, const Description& description);
 

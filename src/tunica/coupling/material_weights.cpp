@@ -39,6 +39,13 @@ std::span<const double> values_of(const distributed::Region& region, std::size_t
                        fmt::format("`{}` is {:g} in element {} of region {}", name, value,
                                    region.element_ids[element] + 1, region.name),
                        is_share ? "shares lie between 0 and 1" : "give every element a finite number");
+  constexpr double rounding = 0.01;  // of a depth that another program has found
+  for (const double value : values)
+    if (!is_share && !(value >= -rounding && value <= 1 + rounding))
+      throw InputError(key,
+                       fmt::format("`{}` is {:g} in element {} of region {}", name, value,
+                                   region.element_ids[element] + 1, region.name),
+                       "a depth lies between 0 at the inner and 1 at the outer surface");
   return values;
 }
 

@@ -254,6 +254,11 @@ case_file::Case posable_case(const Chain& chain) {
   if (c.fibres) {
     c.wall->fibre_frame = wall::ConstantFrame{};
     c.start.reset();  // belongs to the mesh with its directions
+    const auto without_depth = [](wall::Composition& composition) {
+      if (composition.layers && composition.layers->depth == stages::fibres::array_depth) composition.layers.reset();
+    };
+    without_depth(c.wall->composition);
+    for (auto& [name, region] : c.wall->regions) without_depth(region.composition);
   }
   c.fibres.reset();
   for (const auto& stage : stages())

@@ -204,8 +204,9 @@ std::optional<ScanAnatomy> scan_anatomy(const Chain& chain, double spacing, MPI_
     // Stage `post` sees the lumen alone, whose centreline runs elsewhere than that of lumen and flap.
     run.interface = false;
     along = analysis::make_vessel(run, settings, data, comm).along;
-    extend_from_lumen(data, along);
   }
+  if (!run.interface || std::any_of(along.begin(), along.end(), [](double s) { return std::isnan(s); }))
+    extend_from_lumen(data, along);
   std::erase_if(data.node_fields, [](const auto& field) { return field.name == mesh::distance_along; });
   data.node_fields.push_back({mesh::distance_along, std::move(along)});
   std::optional<ScanAnatomy> result;

@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tunica/artifacts/load_mesh.hpp"
 #include "tunica/base/error.hpp"
@@ -16,6 +18,7 @@
 #include "tunica/parallel/agree.hpp"
 #include "tunica/parallel/patience.hpp"
 #include "tunica/pipeline/chain.hpp"
+#include "tunica/pipeline/figures.hpp"
 #include "tunica/pipeline/plan.hpp"
 #include "tunica/pipeline/scan_anatomy.hpp"
 #include "tunica/pipeline/what_if_page.hpp"
@@ -52,7 +55,7 @@ class WhatIfRun {
       if (const int signal = chain(files_[k], names_[k]); signal != 0) return signal;
     parallel::on_root(comm_, [&] {
       say("");
-      say(write_what_if(plan_, *chain_));
+      say(write_what_if(plan_, *chain_, remarks_));
     });
     return 0;
   }
@@ -91,6 +94,7 @@ class WhatIfRun {
     std::optional<ScanAnatomy> scan;
     if (changes_mesh_ != 0) scan = scan_anatomy(*chain_, section_spacing, comm_);
     parallel::on_root(comm_, [&] {
+      if (scan) name_tears_as_post(*scan);
       for (std::size_t k = 0; k < names_.size(); ++k) {
         const fs::path folder = plan_.folder_of(k), file = folder / "case.yaml";
         files::make_folder(folder);
@@ -103,7 +107,23 @@ class WhatIfRun {
     parallel::broadcast(comm_, files_);
   }
 
-  void make_mesh(std::size_t k, const ScanAnatomy& scan) const {
+  /// Names are those that the user reads in the results of the case.
+  void name_tears_as_post(ScanAnatomy& scan) const {
+    const auto post = read_json(folder_of(*chain_, stage("post")) / "post.json");
+    for (auto& tear : scan.anatomy.tears) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& known : post.value("tears", nlohmann::json::array())) {
+        const auto& c = known.at("centre_mm");
+        const Vec3<double> centre{{c[0].get<double>(), c[1].get<double>(), c[2].get<double>()}};
+        if (const double d = norm(geometry::mm * centre - tear.centre); d < nearest) {
+          nearest = d;
+          tear.name = known.at("name").get<std::string>();
+        }
+      }
+    }
+  }
+
+  void make_mesh(std::size_t k, const ScanAnatomy& scan) {
     const auto between = faces_between(*chain_);
     analysis::ChangedMesh changed;
     try {
@@ -116,6 +136,7 @@ class WhatIfRun {
       throw InputError(std::move(problems));
     }
     for (const auto& remark : changed.remarks) say(fmt::format("{}: {}", names_[k], remark));
+    remarks_[names_[k]] = changed.remarks;
     const fs::path folder = plan_.folder_of(k) / "mesh";
     mesh_io::write_simvascular(folder / "lumen", changed.data, mesh::RegionKind::lumen, geometry::mm);
     std::vector<std::string> regions;
@@ -142,7 +163,8 @@ class WhatIfRun {
   int changes_mesh_ = 0;
   std::optional<Chain> chain_;
 
-  WhatIfPlan plan_;  ///< rank 0
+  WhatIfPlan plan_;  ///< rank 0, as the next two
+  std::map<std::string, std::vector<std::string>> remarks_;
   files::FolderLock lock_;
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tunica/base/limits.hpp"
+#include "tunica/config/document.hpp"
 #include "tunica/drawing/page.hpp"
 #include "tunica/drawing/plot.hpp"
 #include "tunica/files/atomic_file.hpp"
@@ -171,9 +172,23 @@ std::string plots(const Computed& all) {
          plot_along(all, "Mean flow along the false lumen", "flow [ml/s]", of_lumen("false_lumen", "flow"));
 }
 
+/// What each variant is, and what that did to its mesh.
+std::string variants(const WhatIfPlan& plan, const std::map<std::string, std::vector<std::string>>& remarks) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, variant] : plan.settings.variants) {
+    std::string done;
+    if (const auto found = remarks.find(name); found != remarks.end())
+      for (const auto& remark : found->second) done += (done.empty() ? "" : "<br>") + page::escaped(remark);
+    rows.push_back(
+        {page::escaped(name), page::escaped(config::one_line(plan.document.part("variants").part(name))), done});
+  }
+  return page::table({"variant", "what is other than in the case", "on the mesh"}, rows);
+}
+
 }  // namespace
 
-std::string write_what_if(const WhatIfPlan& plan, const Chain& chain) {
+std::string write_what_if(const WhatIfPlan& plan, const Chain& chain,
+                          const std::map<std::string, std::vector<std::string>>& remarks) {
   const Computed all = read_all(plan, chain);
   auto lines = main_lines(all);
   const auto first = compared_table(all.names, lines);
@@ -188,7 +203,8 @@ std::string write_what_if(const WhatIfPlan& plan, const Chain& chain) {
               "<p>{} as it is, and with other anatomy or loads. Pressures and flows are means over the beat, and "
               "those of lumens over the stations that have both.</p>\n",
               page::escaped(plan.case_file.filename().string())) +
-          first + plots(all) + "<h2>All figures</h2>\n" + compared_table(all.names, more) + page::end());
+          variants(plan, remarks) + first + plots(all) + "<h2>All figures</h2>\n" + compared_table(all.names, more) +
+          page::end());
   return fmt::format("side by side: {}", (plan.output / "what_if.html").string());
 }
 

@@ -134,6 +134,11 @@ WhatIfPlan plan_what_if(const fs::path& file, const std::optional<fs::path>& out
   if (!chain.settings.post)
     problems.push_back(
         {plan.case_file.string(), "has no section `post`, whose figures stand side by side", "add `post: {}`"});
+  const fs::path results = absolute_path(chain.settings.output.directory).lexically_normal(),
+                 here = plan.output.lexically_normal();
+  if (here == results || !fs::relative(here, results).string().starts_with(".."))
+    problems.push_back({"output", fmt::format("{} is where the case has its own results", plan.output.string()),
+                        "name a folder beside it"});
   for (std::size_t k = 0; k < plan.settings.variants.size(); ++k) {
     const auto& [name, variant] = plan.settings.variants[k];
     try {

@@ -99,6 +99,13 @@ TEST_F(Check, FindsWhatAnyStageRefusesBeforeTheFirstOne) {
            Flaw{"steps: 20}}", "steps: 20}, exclude: [flap]}", "prestress.exclude: the mesh has no wall region flap"},
        })
     expect_refused(chain, flaw);
+  // Depths of layers are made with the directions.
+  std::string layered = chain;
+  layered.replace(layered.find("wall:\n"), 6,
+                  "wall:\n  layers: {depth: depth, blending: 0.2, outwards: [{beyond: 0.6, material: {neo_hooke: "
+                  "{young_modulus: 0.5 MPa, poisson_ratio: 0.45}}}]}\n");
+  write("layered.yaml", layered);
+  EXPECT_EQ(tunica("check layered.yaml"), 0) << printed();
   const std::string tuned = chain + "outlets: {systolic: 125 mmHg, diastolic: 75 mmHg, fractions: {lumen_outlet: 1}}\n";
   expect_refused(
       tuned, {"  lumen_outlet: {resistance: 5e8 Pa s/m^3}\n", "", "boundary.lumen_inlet: the flow is not periodic"});
