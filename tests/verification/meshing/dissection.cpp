@@ -114,7 +114,8 @@ TEST(DissectionMesh, MatchesTheBodyAtTwoSizesAndHasTwoElementsThroughTheWallOnRe
   const geometry::DissectionModel model(shape);
   const Volumes exact = count_volumes(model);
   std::vector<Result> made;
-  for (const case_file::Size& size : {case_file::Size(case_file::Coarse{}), case_file::Size(case_file::Across{.count = 3.2})}) {
+  for (const case_file::Size& size :
+       {case_file::Size(case_file::Coarse{}), case_file::Size(case_file::Across{.count = 3.2})}) {
     const auto& r = made.emplace_back(make(shape, size));
     std::printf(
         "edge %.2f mm: %zu tetrahedra, lumen %.2f ml (exact %.2f), wall %.2f ml (exact %.2f), smallest "
