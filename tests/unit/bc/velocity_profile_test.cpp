@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "temporary_folder.hpp"
 #include "tunica/base/error.hpp"
 #include "tunica/bc/formula.hpp"
 
@@ -46,8 +47,8 @@ class ProfileTable : public ::testing::Test {
     out.close();
     profile_.table = file_;
   }
-  ~ProfileTable() override { std::filesystem::remove(file_); }
-  std::filesystem::path file_ = std::filesystem::temp_directory_path() / "tunica_profile_table.csv";
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "table.csv";
   PointTable table() const { return {profile_.over_face(), velocity_columns}; }
   VelocityProfile profile_;
 };
