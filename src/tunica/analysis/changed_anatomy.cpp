@@ -65,13 +65,8 @@ class Change {
 
   // --- closing ------------------------------------------------------------------------------------------------------
 
-  const std::vector<double>* node_field(const char* name) const {
-    const auto found =
-        std::find_if(data_.node_fields.begin(), data_.node_fields.end(), [&](const auto& f) { return f.name == name; });
-    return found == data_.node_fields.end() ? nullptr : &found->values;
-  }
   const std::vector<double>& side() const {
-    const auto* side = node_field(mesh::lumen_side);
+    const auto* side = mesh::values_named(data_.node_fields, mesh::lumen_side);
     if (side == nullptr)
       throw InputError("close_tears", "nothing tells true and false lumen of this mesh apart",
                        "see `lumens` in docs/post.md");
@@ -138,7 +133,7 @@ class Change {
 
   /// As the stations have it, from the inlet [m].
   double distance_along(std::int64_t e) const {
-    const auto& distance = *node_field(mesh::distance_along);
+    const auto& distance = *mesh::values_named(data_.node_fields, mesh::distance_along);
     double sum = 0;
     for (const auto node : data_.tetrahedra[at(e)]) sum += 0.25 * distance[at(node)];
     return sum;

@@ -42,9 +42,8 @@ std::vector<double> sides(const DistributedMesh& mesh, const RunDescription& run
   if (run.interface && settings.lumens) return frames::lumen_sides(mesh, *settings.lumens).phi;
   if (run.interface && has_wall(mesh, usual.true_lumen[0]) && has_wall(mesh, usual.false_lumen[0]))
     return frames::lumen_sides(mesh, usual).phi;
-  for (const auto& field : mesh.node_fields)
-    if (field.name == mesh::lumen_side) return field.values;
-  return {};
+  const auto* side = mesh::values_named(mesh.node_fields, mesh::lumen_side);
+  return side == nullptr ? std::vector<double>() : *side;
 }
 
 /// Rises from the inlet towards all other openings; zero where the mesh does not say which is which.

@@ -182,12 +182,6 @@ void mark_openings(const mesh::MeshData& data, Vessel& vessel) {
   }
 }
 
-const std::vector<double>* node_field(const mesh::MeshData& data, const char* name) {
-  for (const auto& field : data.node_fields)
-    if (field.name == name) return &field.values;
-  return nullptr;
-}
-
 /// Zero at the inlet, and at the end as far as a vessel between the two can be long.
 void check_distances(const mesh::MeshData& data, const Vessel& vessel, const std::vector<double>& distance) {
   constexpr double most_winding = 20, slack = 0.05;
@@ -241,7 +235,8 @@ void check_ends(const RunDescription& run, const PostSettings& settings, const m
   if (!run.fluid) return;
   sort_faces(run, data, vessel);
   find_ends(run, settings, data, vessel);
-  if (const auto* given = node_field(data, mesh::distance_along)) check_distances(data, vessel, *given);
+  if (const auto* given = mesh::values_named(data.node_fields, mesh::distance_along))
+    check_distances(data, vessel, *given);
 }
 
 void tell_lumens_apart(const RunDescription& run, const PostSettings& settings, mesh::MeshData& data, MPI_Comm comm) {
@@ -265,7 +260,7 @@ Vessel make_vessel(const RunDescription& run, const PostSettings& settings, cons
   find_ends(run, settings, data, vessel);
   const auto mesh = distributed::distribute(data, comm);
   vessel.towards_end = potential_towards_end(run, data, mesh, vessel);
-  if (const auto* side = node_field(data, mesh::lumen_side)) vessel.side = *side;
+  if (const auto* side = mesh::values_named(data.node_fields, mesh::lumen_side)) vessel.side = *side;
   if (vessel.side.empty()) {
     leave_lumens_out(run, vessel);
   } else {
@@ -277,7 +272,7 @@ Vessel make_vessel(const RunDescription& run, const PostSettings& settings, cons
     vessel.tears = find_tears(data, vessel.side);
     if (vessel.tears.empty()) vessel.left_out.push_back({"tears", "true and false lumen do not communicate"});
   }
-  if (const auto* given = node_field(data, mesh::distance_along)) {
+  if (const auto* given = mesh::values_named(data.node_fields, mesh::distance_along)) {
     check_distances(data, vessel, *given);
     vessel.along = *given;
   } else {

@@ -115,8 +115,7 @@ std::vector<AcrossPart> resolution(const case_file::Case& c, const mesh::MeshDat
   int sets = 0, tears = 0;
   const auto set = connected(elements, torn, sets);
   // Where the mesh tells the lumens apart, a tear has both; elsewhere a flap that is curled faces itself, too.
-  const auto side = std::find_if(data.node_fields.begin(), data.node_fields.end(),
-                                 [](const auto& field) { return field.name == mesh::lumen_side; });
+  const auto* side = mesh::values_named(data.node_fields, mesh::lumen_side);
   struct Nodes {
     int all = 0;
     bool true_lumen = false, false_lumen = false;
@@ -126,9 +125,9 @@ std::vector<AcrossPart> resolution(const case_file::Case& c, const mesh::MeshDat
     if (set[n] < 0) continue;
     auto& nodes = of_set[static_cast<std::size_t>(set[n])];
     ++nodes.all;
-    const bool known = side != data.node_fields.end() && !std::isnan(side->values[n]);
-    nodes.true_lumen = nodes.true_lumen || !known || side->values[n] > 0;
-    nodes.false_lumen = nodes.false_lumen || !known || !(side->values[n] > 0);
+    const bool known = side != nullptr && !std::isnan((*side)[n]);
+    nodes.true_lumen = nodes.true_lumen || !known || (*side)[n] > 0;
+    nodes.false_lumen = nodes.false_lumen || !known || !((*side)[n] > 0);
   }
   for (int k = 0; k < sets; ++k)
     if (const auto& nodes = of_set[static_cast<std::size_t>(k)];

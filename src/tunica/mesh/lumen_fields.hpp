@@ -2,6 +2,10 @@
 #pragma once
 
 #include <array>
+#include <string_view>
+#include <vector>
+
+#include "tunica/mesh/mesh_data.hpp"
 
 namespace tunica::mesh {
 
@@ -13,5 +17,12 @@ inline constexpr const char* lumen_side = "lumen_side";
 inline constexpr const char* distance_along = "distance_along";
 
 inline constexpr std::array<const char*, 2> lumen_fields = {lumen_side, distance_along};
+
+/// Values of the field of this name; null where there is none.
+inline const std::vector<double>* values_named(const std::vector<NodeField>& fields, std::string_view name) {
+  for (const auto& field : fields)
+    if (field.name == name) return &field.values;
+  return nullptr;
+}
 
 }  // namespace tunica::mesh

@@ -73,9 +73,8 @@ std::vector<viewer::CutPlane> planes_of(const nlohmann::json& post, viewer::Beat
 
 /// Mean of the lumen's nodes on either side of the flap, in the middle of where both lumens are.
 void add_lumen_labels(const MeshData& data, const nlohmann::json& post, viewer::Beat& beat) {
-  const auto side = std::find_if(data.node_fields.begin(), data.node_fields.end(),
-                                 [](const auto& f) { return f.name == mesh::lumen_side; });
-  if (side == data.node_fields.end() || !post.is_object() || !post.contains("stations")) return;
+  const auto* side = mesh::values_named(data.node_fields, mesh::lumen_side);
+  if (side == nullptr || !post.is_object() || !post.contains("stations")) return;
   std::vector<Vec3<double>> both;
   for (const auto& station : post["stations"])
     if (station.contains("true_lumen") && station.contains("false_lumen"))
@@ -85,7 +84,7 @@ void add_lumen_labels(const MeshData& data, const nlohmann::json& post, viewer::
   std::array<Vec3<double>, 2> sum{};
   std::array<double, 2> count{};
   for (std::size_t n = 0; n < data.points.size(); ++n) {
-    const double value = side->values[n];
+    const double value = (*side)[n];
     if (std::isnan(value) || norm(data.points[n] - middle) > 25 * unit::mm) continue;
     const std::size_t lumen = value > 0 ? 0 : 1;
     sum[lumen] = sum[lumen] + data.points[n];
